@@ -7,7 +7,7 @@ import pytest
 
 from claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
 from made import RESULTS, ROOT
-from workflow.config.model import CLAIMS
+from scripts.claims.settings import CLAIMS
 
 PAGE = ROOT / "docs/claims.md"
 # Claims whose tables are the same on coarse axes.

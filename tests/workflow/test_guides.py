@@ -42,7 +42,7 @@ def test_names_that_the_guide_says_to_edit_exist():
     for file, name in (
         ("scripts/figures/captions.py", "NUMBERS"),
         ("scripts/claims/verdicts.py", "FINDINGS"),
-        ("workflow/config/model.py", "CLAIMS"),
+        ("scripts/claims/settings.py", "CLAIMS"),
         ("workflow/config/tables.py", "TABLES"),
         ("scripts/figures/style.py", "METHODS"),
         ("scripts/conveyor/parameters.py", "FIXED_STEP_METHODS"),

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal, NotRequired
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, WrapValidator
 from typing_extensions import TypedDict
 
-from scripts.conveyor import DESCRIPTIONS, PARAMETERS, RANGES, TENSION_MODES, UNITS
+from ..conveyor import DESCRIPTIONS, FIXED_STEP_METHODS, PARAMETERS, RANGES, TENSION_MODES, UNITS
 
 LONGEST_NAME = 64  # characters: names become file names
 LONGEST_LIST = 10_000  # values; a longer axis is written as {start, stop, num}
@@ -176,3 +176,27 @@ Axes = Annotated[
 Model = Annotated[
     TypedDict("Model", MODEL_TYPES, total=False), Field(description="parameters that differ from the section `model`")
 ]
+
+# Types of several keys.
+Acceleration, Accelerations = MODEL_TYPES["acceleration"], AXIS_TYPES["acceleration"]
+Height, HeightNumber = MODEL_TYPES["z0"], parameter("z0", "height above the mean position of the plate")
+Velocity = parameter("vz0")
+Duration = number("simulated time of a run", "s", gt=0, le=1e6)
+Method = word("event, or a method with a fixed step", "event", *FIXED_STEP_METHODS)
+Tolerance = number("relative error per step of the method event", ge=1e-14, le=1e-2)
+Step = number("time step of the fixed-step methods", "s", ge=1e-12, le=1e-1)
+Seed = whole("seed of the random numbers", 0, 2**32 - 1)
+Period = whole("longest period considered", 1, 64, "excitation cycles")
+
+
+class Followed(TypedDict):
+    """Keys of a table of trajectories."""
+
+    axes: Axes
+    model: NotRequired[Model]
+    method: NotRequired[Method]
+    methods: NotRequired[
+        many(Method, "methods; the first one makes the table NAME, each further one a table NAME_METHOD")
+    ]
+    tolerance: NotRequired[Tolerance]
+    step: NotRequired[Step]

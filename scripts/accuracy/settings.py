@@ -1,0 +1,168 @@
+"""Settings of the stage accuracy: comparisons of methods, with units and ranges."""
+
+from typing import Annotated, Literal, NotRequired
+
+from pydantic import AfterValidator, Field
+from typing_extensions import TypedDict
+
+from ..conveyor import FIXED_STEP_METHODS
+from ..pipeline.settings import (
+    MODEL_TYPES,
+    MOST_POINTS,
+    Acceleration,
+    Duration,
+    Height,
+    HeightNumber,
+    Line,
+    Model,
+    Name,
+    Reference,
+    Seed,
+    Step,
+    Tolerance,
+    check_span,
+    interval,
+    many,
+    mapping,
+    number,
+    span,
+    whole,
+    word,
+)
+
+FixedStepMethod = word("method with a fixed step", *FIXED_STEP_METHODS)
+Tolerances = many(Tolerance, "relative tolerances")
+Steps = many(Step, "time steps of the fixed-step methods")
+Cycles = whole("length of a run", 256, 10**9, "excitation cycles")
+Repeats = whole("repetitions", 1, 10**9)
+MaxEvaluations = whole("force evaluations after which a peer method is stopped", 1, 10**9)
+
+
+class Goals(TypedDict):
+    error: number("relative error of the mean velocity", gt=0, le=1e300)
+    speed: number("goal of the speed, in units of explicit Euler's speed", gt=0, le=1e300)
+    aim: number("ambition beyond this goal, in the same units", gt=0, le=1e300)
+
+
+class Case(TypedDict):
+    motion: Annotated[Line, Field(description="state of motion")]
+    model: Model
+    duration: NotRequired[Duration]
+    loosest: NotRequired[Tolerance]
+    step: NotRequired[Step]
+    compared: number("time over which the error is measured", "s", gt=0, le=1e6)
+    wanted: Annotated[Goals, Field(description="goals of the benchmark")]
+
+
+class Benchmark(TypedDict):
+    repeats: Repeats
+    cases: Annotated[dict[Name, Case], Field(description="benchmark cases")]
+
+
+class Precision(TypedDict):
+    duration: Duration
+    scenes: Annotated[dict[Name, Model], Field(description="conveyors by their names")]
+    max_evaluations: MaxEvaluations
+    repeats: Repeats
+
+
+class PublishedScene(TypedDict):
+    model: Model
+    duration: Duration
+
+
+class PublishedScenes(TypedDict):
+    further: Annotated[dict[Name, PublishedScene], Field(description="scenes in addition to the scenes of `precision`")]
+
+
+class Ride(TypedDict):
+    start: Acceleration
+    stop: Acceleration
+    num: whole("number of amplitudes", 1, MOST_POINTS)
+    z0: Height
+    duration: Duration
+
+
+class HardCase(TypedDict):
+    label: Annotated[Line, Field(description="label in the figure")]
+    model: Model
+    duration: Duration
+
+
+INTEGRATORS = (
+    *("RK45", "DOP853", "Radau", "LSODA"),
+    *("CyRK DOP853", "CyRK Vern8", "CVODE Adams", "CVODE BDF", "heyoka"),
+)
+
+
+class Stability(TypedDict):
+    methods: many(FixedStepMethod, "methods with a fixed step")
+    paper_step: Step
+    step: span(Step, "time steps")
+    contact: mapping("contact with p = 1", {name: MODEL_TYPES[name] for name in ("stiffness", "damping")})
+    stiffness: span(MODEL_TYPES["stiffness"], "contact stiffnesses")
+    damping: span(MODEL_TYPES["damping"], "contact damping coefficients")
+    impact_velocity: span(number("impact velocity", "m/s", gt=0, le=100), "impact velocities")
+    conveyor: Annotated[Ride, AfterValidator(check_span), Field(description="the paper's conveyor without chaos")]
+    stick: mapping(
+        "a conveyor on which the part sticks",
+        {name: item for name, item in MODEL_TYPES.items() if name not in ("z0", "vz0")},
+        total=False,
+    )
+    chatter_steps: Steps
+    rivals: mapping(
+        "other integrators in the difficult cases",
+        {
+            "integrators": many(Literal[INTEGRATORS], "integrators with events and modes", least=0),
+            "tolerance": Tolerance,
+            "max_evaluations": MaxEvaluations,
+        },
+    )
+    hard: Annotated[dict[Name, HardCase], Field(description="difficult cases")]
+
+
+BUDGETED = ("sweeps", "signals", "spectra", "estimates", "critical", "impacts", "dimensions", "attractors", "lyapunov")
+Points = whole("number of points", 1, MOST_POINTS)
+
+
+class SceneBudget(TypedDict):
+    points: mapping("points of each table that are compared", dict.fromkeys(BUDGETED, Points))
+    tolerances: Tolerances
+    pixels: number("share of visibly changed values that is accepted", ge=0, le=1)
+    line: number("visible change of a line, as a share of the axis", ge=0, le=1)
+    reasons: Annotated[dict[Reference, Line], Field(description="why a table is more accurate than its figure needs")]
+
+
+class MapCheck(TypedDict):
+    maps: many(Name, "sweeps over two parameters")
+    points: whole("points of each map", 1, MOST_POINTS)
+    cycles: Cycles
+
+
+class SettlingTimes(TypedDict):
+    acceleration: many(Acceleration, "amplitudes of the excitation")
+    starts: whole("number of random initial conditions", 1, 10**6)
+    z0: interval(HeightNumber, "interval of the random initial heights")
+    cycles: Cycles
+    seed: Seed
+
+
+class Scaling(TypedDict):
+    points: many(whole("points", 1000, 10**10), "points of a map")
+    made_whole: whole("up to this number of points all shards are computed", 1000, 10**9)
+    conveyors: many(whole("conveyors", 10, 10**6), "numbers of conveyors")
+    threads: many(whole("threads", 1, 256), "numbers of threads")
+    shards: many(whole("shards", 1, 1000), "numbers of shards")
+    shared_points: whole("points of the maps over threads and shards", 1000, 10**8)
+
+
+SECTIONS = {
+    "benchmark": Annotated[Benchmark, Field(description="speed and error of the solver and of the paper's method")],
+    "precision": Annotated[Precision, Field(description="error against cost of all methods")],
+    "published_scenes": Annotated[PublishedScenes, Field(description="benchmark for other solvers")],
+    "stability": Annotated[Stability, Field(description="limits of stability of the methods")],
+    "scene_budget": Annotated[SceneBudget, Field(description="accuracy that each figure needs")],
+    "map_check": Annotated[MapCheck, Field(description="check of state maps by brute force")],
+    "settling_times": Annotated[SettlingTimes, Field(description="time until a motion settles")],
+    "scaling": Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")],
+}

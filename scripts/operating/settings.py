@@ -1,0 +1,140 @@
+"""Settings of the stage operating: where to run a conveyor, with units and ranges."""
+
+from typing import Annotated, NotRequired
+
+from pydantic import Field
+from typing_extensions import TypedDict
+
+from ..conveyor import DESCRIPTIONS, UNITS
+from ..pipeline.settings import (
+    MODEL_TYPES,
+    Acceleration,
+    Accelerations,
+    Seed,
+    Tolerance,
+    Velocity,
+    check_ascending,
+    interval,
+    many,
+    mapping,
+    number,
+    span,
+    whole,
+)
+
+Resolution = number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)
+
+
+class Operating(TypedDict):
+    acceleration: Accelerations
+    resolution: Resolution
+    height: interval(number("height above the plate", "m", ge=0, le=10), "initial heights", point=True)
+    vz0: interval(Velocity, "initial velocities", point=True)
+    psi0: interval(MODEL_TYPES["psi0"], "phases of the excitation", point=True)
+    starts: whole("random initial conditions per amplitude", 16, 10**6)
+    seed: Seed
+    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
+    cycles: whole("cycles over which a mean velocity is taken", 10, 10**6, "excitation cycles")
+    same_velocity: number("relative difference up to which velocities are equal", "of the larger velocity", gt=0, lt=1)
+    tolerance: Tolerance
+
+
+DEVIATION = number("relative standard deviation", "of the value in the model", ge=0, le=1)
+
+
+class Parts(TypedDict):
+    friction: DEVIATION
+    damping: DEVIATION
+    stiffness: DEVIATION
+    mass: DEVIATION
+    acceleration: DEVIATION
+    calibrated: NotRequired[
+        Annotated[
+            bool, Field(description="draw friction, damping and stiffness from the samples of the calibration, too")
+        ]
+    ]
+    seed: Seed
+
+
+class Transit(TypedDict):
+    acceleration: Accelerations
+    length: number("length of the track", "m", ge=1e-3, le=1e4)
+    longest: number("time after which a part is late", "s", gt=0, le=1e5)
+    parts: whole("parts with random initial conditions per amplitude", 8, 10**6)
+
+
+class Drift(TypedDict):
+    amplitudes: whole("largest number of amplitudes", 1, 10**4)
+    runs: whole("initial conditions per amplitude", 4, 10**5)
+    forgotten: whole("excitation cycles before the first sample", 0, 10**6, "excitation cycles")
+    cycles: whole("excitation cycles of each run", 64, 10**6, "excitation cycles")
+    lengths: many(
+        number("length of a track", "transit.length", gt=0, le=1e3), "lengths of tracks", check=check_ascending
+    )
+
+
+class Advice(TypedDict):
+    margin: number("relative error of the amplitude within which the advice must hold", gt=0, lt=1)
+    changes: mapping(
+        "changes of single parameters, up and down",
+        {
+            name: number(f"change of {name}", UNITS[name], gt=0)
+            for name in ("angle", "frequency", "friction", "inclination", "phase_shift")
+        },
+    )
+    part_length: NotRequired[number("length of a part in the feeding direction", "m", gt=0, le=10)]
+
+
+class Throws(TypedDict):
+    throw_number: span(number("throw number a_z/(g cos α)", gt=0, le=100), "throw numbers")
+    starts: whole("random initial conditions per throw number", 16, 10**6)
+    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
+
+
+class Track(TypedDict):
+    acceleration: Acceleration
+    inclination: span(MODEL_TYPES["inclination"], "inclinations of the track")
+    phase_shift: span(MODEL_TYPES["phase_shift"], "phase shifts of the drive")
+    starts: whole("random initial conditions per inclination", 2, 10**6)
+    cycles: whole("cycles that the feeding motion is followed for, at least", 4, 10**6, "excitation cycles")
+
+
+class DriveSearch(TypedDict):
+    parts: whole("parts per design", 8, 10**6)
+    longest: number("time for which a part is followed", "s", gt=0, le=1e5)
+
+
+class Drive(TypedDict):
+    bounds: mapping(
+        "search interval of each parameter",
+        {
+            name: interval(MODEL_TYPES[name], DESCRIPTIONS[name])
+            for name in ("acceleration", "frequency", "angle", "phase_shift")
+        },
+    )
+    displacement: number("largest amplitude of the drive's displacement, â/ω²", "m", gt=0, le=1)
+    velocity: number("least useful velocity of the slowest 5 % of the parts", "m/s", gt=0, le=100)
+    impact_speed: number("largest impact speed that a design may have", "m/s", gt=0, le=100)
+    back: number("largest share of the parts that may move back", ge=0, lt=1)
+    search: Annotated[DriveSearch, Field(description="parts of each design of the search")]
+    drawn: whole("random designs of the first generation", 4, 10**6)
+    population: whole("population of NSGA-II", 4, 10**4)
+    generations: whole("generations of NSGA-II", 4, 10**5)
+    settled: number("growth of the hypervolume in the last quarter that counts as settled", "1", gt=0, le=1)
+    seeds: many(Seed, "seeds of the random numbers")
+    checked: whole("designs of the front that are confirmed by the transit of all parts", 1, 1000)
+    recommended: whole("recommended settings", 1, 100)
+
+
+SECTIONS = {
+    "operating": Annotated[Operating, Field(description="shares of the attractors over the amplitude")],
+    "parts": Annotated[Parts, Field(description="how parts differ")],
+    "transit": Annotated[Transit, Field(description="velocities of parts along a track over the amplitude")],
+    "drift": Annotated[
+        Drift, Field(description="drift and diffusion in chaos, and the spread over the track's length")
+    ],
+    "advice": Annotated[Advice, Field(description="advice on where to run the conveyor")],
+    "track": Annotated[Track, Field(description="velocity over inclination and phase shift")],
+    "throws": Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")],
+    "drive": Annotated[Drive, Field(description="search for the settings of the drive")],
+}

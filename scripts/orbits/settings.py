@@ -1,0 +1,116 @@
+"""Settings of the stage orbits: orbits, attractors and exponents, with units and ranges."""
+
+from typing import Annotated, NotRequired
+
+from pydantic import Field
+from typing_extensions import TypedDict
+
+from ..pipeline.settings import (
+    Acceleration,
+    Accelerations,
+    Duration,
+    Followed,
+    Height,
+    Model,
+    Name,
+    Period,
+    Seed,
+    Tolerance,
+    Velocity,
+    interval,
+    many,
+    number,
+    whole,
+    word,
+)
+
+Epsilon = number("size of the perturbation, in units of the perturbed parameter", ge=1e-15, le=1)
+Bits = whole("bits of the interval arithmetic", 53, 4096)
+Order = whole("order of the Taylor series", 4, 200)
+LastTerms = number("size of the last terms of the Taylor series, in g/ω² and g/ω", gt=0, le=1e-3)
+
+
+class Estimate(Followed):
+    duration: NotRequired[Duration]
+    perturb: word("perturbed parameter", "psi0", "z0", "vz0")
+    epsilon: Epsilon
+    output: word("compared state variable", "x", "vx", "z", "vz")
+    last: number("share of the run that is averaged", "of the duration", gt=0, lt=1)
+    samples: whole("samples in this share", 2, 10**8)
+
+
+class SeedOrbit(TypedDict):
+    acceleration: Acceleration
+    z0: Height
+    vz0: NotRequired[Velocity]
+
+
+class Orbits(TypedDict):
+    seeds: NotRequired[
+        Annotated[
+            list[SeedOrbit], Field(min_length=1, max_length=1000, description="initial conditions of the first orbits")
+        ]
+    ]
+    limits: interval(Acceleration, "amplitudes between which branches are followed")
+    max_period: whole("longest period that is followed", 1, 64, "excitation cycles")
+    cycles: whole("cycles until a seed is near its orbit", 64, 10**9, "excitation cycles")
+    most: whole("orbits after which no further branch is followed", 1, 10**9)
+    model: NotRequired[Model]
+
+
+class CertifiedChaos(TypedDict):
+    acceleration: many(Acceleration, "amplitudes of the proofs of chaos", least=0)
+    size: number("largest half axis of a parallelogram along the unstable direction, in g/ω² and g/ω", gt=0, le=1)
+    ratio: number("unstable half axis over stable half axis", gt=0, le=100)
+    longest: whole("longest excursion searched for", 2, 64, "excitation cycles")
+    bits: Bits
+    order: Order
+    tolerance: LastTerms
+
+
+class Certificates(TypedDict):
+    acceleration: Accelerations
+    also: many(Acceleration, "further amplitudes", least=0)
+    longest_period: Period
+    doubled_limit: Acceleration
+    bits: Bits
+    order: Order
+    tolerance: LastTerms
+    closeness: number("largest distance of a proved orbit from the stored one, in g/ω² and g/ω", gt=0, le=1)
+    doublings: whole("period doublings that are proved", 0, 8)
+    half_width: number("half width of the bracket of a doubling", "m/s²", gt=0, le=1e-2)
+    half_arc: number("half the arc of a branch around its fold, in g/ω², g/ω and g", gt=0, le=1e-2)
+    chaos: Annotated[CertifiedChaos, Field(description="proofs of chaos")]
+
+
+class Attractors(TypedDict):
+    acceleration: Accelerations
+    transient: whole("excitation cycles before recording", 0, 10**9, "excitation cycles")
+    strobes: whole("stroboscopic samples, one per excitation cycle", 1, 10**9)
+    model: NotRequired[Model]
+    tolerance: NotRequired[Tolerance]
+
+
+class Lyapunov(TypedDict):
+    cycles: whole("cycles per block", 1, 10**9, "excitation cycles")
+    blocks: whole("number of blocks", 2, 10**6)
+    tolerance: NotRequired[Tolerance]
+
+
+class Witnesses(TypedDict):
+    strobes: whole("samples of the 0-1 test", 100, 10**8)
+    seed: Seed
+    significant: number("standard errors by which an exponent is positive", ge=0, le=1e6)
+    tolerance: NotRequired[Tolerance]
+
+
+SECTIONS = {
+    "estimates": Annotated[
+        dict[Name, Estimate], Field(description="Lyapunov exponents by finite differences (Eq. 23)")
+    ],
+    "orbits": Annotated[Orbits, Field(description="periodic orbits of the vertical motion")],
+    "certificates": Annotated[Certificates, Field(description="proofs of orbits, bifurcations and chaos")],
+    "attractors": Annotated[Attractors, Field(description="stroboscopic states over the amplitude")],
+    "lyapunov": Annotated[Lyapunov, Field(description="Lyapunov exponents of the attractors")],
+    "witnesses": Annotated[Witnesses, Field(description="tests for chaos")],
+}

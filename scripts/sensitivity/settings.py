@@ -1,0 +1,33 @@
+"""Settings of the stage sensitivity: derivatives and curves of bifurcations, with units and ranges."""
+
+from typing import Annotated
+
+from pydantic import Field
+from typing_extensions import TypedDict
+
+from ..pipeline.settings import HeightNumber, Name, Period, Velocity, interval, mapping, number, whole
+
+Factor = number("factor by which a parameter is increased and decreased", gt=1, le=1e3)
+
+
+class Curves(TypedDict):
+    doublings: whole("doublings that are followed in two parameters", 0, 12)
+    factors: mapping("range of each parameter", dict.fromkeys(("damping", "stiffness", "frequency", "angle"), Factor))
+    amplitude: interval(number("a_z/g", gt=0, le=1e3), "range of a_z/g")
+    step: number("longest step in x, y, log a_z/g and the logarithm of the parameter", gt=0, le=1)
+    points: whole("largest number of points on each side of a curve", 10, 10**5)
+
+
+class Sensitivity(TypedDict):
+    longest_period: Period
+    most: whole("number of bifurcations of each kind, those at the lowest amplitudes", 1, 10**4)
+    doublings: whole("doublings whose derivatives are extrapolated", 1, 12)
+    rest: mapping("initial condition of Fig. 3", {"z0": HeightNumber, "vz0": Velocity})
+    critical: Annotated[Name, Field(description="entry of `critical` over the amplitude alone")]
+    heights: whole("number of amplitudes of this entry", 1, 1000)
+    curves: Annotated[Curves, Field(description="bifurcation curves in two parameters")]
+
+
+SECTIONS = {
+    "sensitivity": Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")],
+}
