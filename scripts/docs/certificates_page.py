@@ -36,7 +36,8 @@ def make(
     orbits, counts = certificates, stable_motions(certificates)
     jumping = orbits.contained & (orbits.acceleration == 40.0) & (orbits.stability == "stable") & (orbits.impacts > 0)
     values = {
-        "settings": orbits.attrs,
+        "arithmetic": orbits.iloc[0],
+        "chaos_bits": certified_chaos.bits.max(),
         "interval": interval,
         "orbits": orbits.to_dict("records"),
         "refused": orbits[~orbits.contained].to_dict("records"),

@@ -37,11 +37,7 @@ def settings_of_conveyor(settings: dict, model: dict) -> dict:
 
 def make(examples: list[str], settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
     """The shares at each throw number, for the conveyors of the config and of the `examples` (YAML texts)."""
-    conveyors = {"paper": {}} | {
-        one["prefix"]: one["model"]
-        for one in map(yaml.safe_load, examples)
-        if "model" in one and "calibration" not in one
-    }
+    conveyors = {"paper": {}} | {one["prefix"]: one["model"] for one in map(yaml.safe_load, examples)}
     throws = np.linspace(*(settings["throw_number"][key] for key in ("start", "stop", "num")))
     tables = []
     for name, model in conveyors.items():

@@ -113,6 +113,27 @@ TABLES = {
 }
 
 
+class Arithmetic(NamedTuple):
+    """The arithmetic of proofs."""
+
+    bits: int
+    order: int  # of the Taylor series
+    tolerance: float  # of the last terms of the series, in g/ω² and g/ω
+
+
+EXACT = Arithmetic(bits=128, order=32, tolerance=1e-22)
+# A horseshoe needs no narrow enclosures.
+CHAOS = Arithmetic(bits=64, order=24, tolerance=1e-14)
+LONGEST_PERIOD = 16  # cycles; orbits longer than orbits.max_period belong to the cascade of the jumping orbit
+CLOSENESS = 1e-7  # in g/ω² and g/ω; a proved orbit at a larger distance from the stored orbit is a different one
+HALF_WIDTH = 1e-10  # m/s², of the bracket of a period doubling
+HALF_ARC = 1e-6  # in g/ω², g/ω and g: half the length of the arc around a fold
+# Of the first parallelogram of a horseshoe: largest half axis in the unstable direction, in g/ω² and g/ω, and ratio of
+# the half axes, unstable to stable.
+SIZE, RATIO = 1e-6, 0.3
+LONGEST_EXCURSION = 14  # cycles, without approach and return
+
+
 class Line(NamedTuple):
     """A branch in floating point: period (cycles) and points (δ in m, v in m/s, â in m/s²) in order, shape (n, 3)."""
 
@@ -141,8 +162,8 @@ def law(settings: dict) -> Law:
 
 
 def shooting(settings: dict, period: int) -> Shooting:
-    """The equations of orbits with a period, with the accuracy of the settings."""
-    return Shooting(law(settings), Accuracy(settings["order"], settings["tolerance"]), period)
+    """The equations of orbits with a period."""
+    return Shooting(law(settings), Accuracy(EXACT.order, EXACT.tolerance), period)
 
 
 def float_orbit(branch: int, returns: ReturnMap, unknown: np.ndarray) -> FloatOrbit:
@@ -199,8 +220,8 @@ def orbits_to_prove(settings: dict, branches: pd.DataFrame, cascade: pd.DataFram
     """All orbits up to the longest period at the amplitudes of the settings, by amplitude."""
     parameters = grid.row_of(settings["model"])
     chosen = sorted({*grid.axis_values("acceleration", settings["acceleration"]).tolist(), *settings["also"]})
-    lines = stored_lines(branches, settings["longest_period"])
-    periods = int(branches.period.max()), settings["longest_period"]
+    lines = stored_lines(branches, LONGEST_PERIOD)
+    periods = int(branches.period.max()), LONGEST_PERIOD
     doubled = doubled_lines(parameters, cascade, periods, (chosen[0], settings["doubled_limit"]))
     lines |= dict(enumerate(doubled, start=int(branches.branch.max()) + 1))
     return [
@@ -249,7 +270,7 @@ def prove_float_orbit(settings: dict, found: FloatOrbit) -> dict:
     }
     try:
         orbit = prove_orbit(problem, problem.law.gamma(exactly(stored.acceleration)), found.strobes)
-        distance = check_near(orbit, found.strobes, settings["closeness"])
+        distance = check_near(orbit, found.strobes, CLOSENESS)
     except Refused as refused:
         return row | {"reason": str(refused)}
     return {
@@ -272,9 +293,9 @@ def prove_bifurcation(settings: dict, kind: str, number: int, row: dict) -> dict
     about = {"kind": kind, "number": number, "period": period, "stored_acceleration": stored}
     try:
         if kind == "fold":
-            found = bracket_fold(problem, stored, strobes, settings["half_arc"])
+            found = bracket_fold(problem, stored, strobes, HALF_ARC)
         else:
-            found = bracket_doubling(problem, stored, strobes, settings["half_width"])
+            found = bracket_doubling(problem, stored, strobes, HALF_WIDTH)
     except Refused as refused:
         return about | {"proved": False, "reason": str(refused)}
     begin, end = found.tests
@@ -293,8 +314,8 @@ def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) 
 
     Orbits are tried in the order of their multipliers, the largest one first.
     """
-    chaos, parameters, units = settings["chaos"], grid.row_of(settings["model"]), law(settings)
-    system = System(units, units.gamma(exactly(acceleration)), Accuracy(chaos["order"], chaos["tolerance"]))
+    parameters, units = grid.row_of(settings["model"]), law(settings)
+    system = System(units, units.gamma(exactly(acceleration)), Accuracy(CHAOS.order, CHAOS.tolerance))
     row = {
         "acceleration": acceleration,
         "proved": False,
@@ -304,7 +325,7 @@ def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) 
     for saddle in sorted(saddles, key=lambda saddle: -abs(saddle.orbit.multipliers[0])):
         try:
             fixed = np.append(saddle.strobes[0], acceleration)
-            centres, axes = plan_sets(parameters, fixed, chaos["size"], chaos["ratio"], chaos["longest"])
+            centres, axes = plan_sets(parameters, fixed, SIZE, RATIO, LONGEST_EXCURSION)
             horseshoe = prove_horseshoe(system, centres, axes)
         except Refused as refused:
             row["reason"] = str(refused)
@@ -331,11 +352,11 @@ PROVERS = {
 def run_task(settings: dict, task: Task) -> tuple[dict, float]:
     """The row of a proof, with NaN for what it does not prove, and its processor time (s)."""
     begin = time.process_time()
-    accuracy = settings["chaos"] if task.kind == "certified_chaos" else settings
-    with precision(accuracy["bits"], accuracy["order"]):
+    arithmetic = CHAOS if task.kind == "certified_chaos" else EXACT
+    with precision(arithmetic.bits, arithmetic.order):
         row = PROVERS[task.kind](settings, *task.arguments)
     unknown = dict.fromkeys((column.name for column in TABLES[task.kind]), np.nan)
-    row = {**unknown, **row, "bits": accuracy["bits"], "order": accuracy["order"]}
+    row = {**unknown, **row, "bits": arithmetic.bits, "order": arithmetic.order}
     return row, time.process_time() - begin
 
 

@@ -13,7 +13,6 @@ from ..pipeline.settings import (
     Height,
     Model,
     Name,
-    Period,
     Seed,
     Tolerance,
     Velocity,
@@ -25,9 +24,6 @@ from ..pipeline.settings import (
 )
 
 Epsilon = number("size of the perturbation, in units of the perturbed parameter", ge=1e-15, le=1)
-Bits = whole("bits of the interval arithmetic", 53, 4096)
-Order = whole("order of the Taylor series", 4, 200)
-LastTerms = number("size of the last terms of the Taylor series, in g/ω² and g/ω", gt=0, le=1e-3)
 
 
 class Estimate(Followed):
@@ -60,26 +56,13 @@ class Orbits(TypedDict):
 
 class CertifiedChaos(TypedDict):
     acceleration: many(Acceleration, "amplitudes of the proofs of chaos", least=0)
-    size: number("largest half axis of a parallelogram along the unstable direction, in g/ω² and g/ω", gt=0, le=1)
-    ratio: number("unstable half axis over stable half axis", gt=0, le=100)
-    longest: whole("longest excursion searched for", 2, 64, "excitation cycles")
-    bits: Bits
-    order: Order
-    tolerance: LastTerms
 
 
 class Certificates(TypedDict):
     acceleration: Accelerations
     also: many(Acceleration, "further amplitudes", least=0)
-    longest_period: Period
     doubled_limit: Acceleration
-    bits: Bits
-    order: Order
-    tolerance: LastTerms
-    closeness: number("largest distance of a proved orbit from the stored one, in g/ω² and g/ω", gt=0, le=1)
     doublings: whole("period doublings that are proved", 0, 8)
-    half_width: number("half width of the bracket of a doubling", "m/s²", gt=0, le=1e-2)
-    half_arc: number("half the arc of a branch around its fold, in g/ω², g/ω and g", gt=0, le=1e-2)
     chaos: Annotated[CertifiedChaos, Field(description="proofs of chaos")]
 
 

@@ -37,12 +37,12 @@ FOLD = {
     "acceleration_high": 24.0,
     "stored_acceleration": 24.0,
 }
-HORSESHOE = {"acceleration": 80.0, "sets": 7, "entropy": 0.12349, "proved": True, "reason": None}
+HORSESHOE = {"acceleration": 80.0, "sets": 7, "entropy": 0.12349, "proved": True, "reason": None, "bits": 96}
 
 
 def page(*orbits: dict) -> str:
     certificates = pd.DataFrame(orbits)
-    certificates.attrs = {"order": 30, "bits": 128, "chaos": {"bits": 96}}
+    certificates[["order", "bits"]] = 30, 128
     return certificates_page.make(TEMPLATE, certificates, pd.DataFrame([FOLD]), pd.DataFrame([HORSESHOE]))
 
 

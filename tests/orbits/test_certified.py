@@ -7,7 +7,7 @@ from conveyor import Conveyor, Start, initial_states, parameter_table
 from conveyor.analysis.bifurcations import periodic_orbits
 from orbits import certified
 
-SETTINGS = {"model": {}, "bits": 128, "order": 24, "tolerance": 1e-22, "closeness": 1e-7}
+SETTINGS = {"model": {}}
 
 
 def test_the_row_of_a_riding_part():

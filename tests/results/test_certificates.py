@@ -3,6 +3,7 @@
 import numpy as np
 
 from claims.about_proofs import stable_motions
+from orbits.certified import CLOSENESS
 
 BOUNDED = ("delta", "v", "impact_phase", "impact_speed", "duration", "contact_time", "trace", "determinant")
 
@@ -12,7 +13,7 @@ def test_orbits_are_proved(result):
     table = result("orbits/certificates")
     assert table.contained.mean() > 0.95
     assert (table.reason.notna() == ~table.contained).all()
-    assert (table[table.contained].distance < table.attrs["closeness"]).all()
+    assert (table[table.contained].distance < CLOSENESS).all()
     assert (table[~table.contained].stability == "open").all()
 
 

@@ -40,6 +40,16 @@ CONSTANTS = {
         ),
         "accuracy/map_check",
     ),
+    **dict.fromkeys(
+        (
+            f"certificates.{key}"
+            for key in (
+                *("longest_period", "bits", "order", "tolerance", "closeness", "half_width", "half_arc"),
+                *(f"chaos.{key}" for key in ("size", "ratio", "longest", "bits", "order", "tolerance")),
+            )
+        ),
+        "orbits/certified",
+    ),
 }
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 

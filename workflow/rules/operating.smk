@@ -77,7 +77,7 @@ rule advice:
 
 rule throws:
     input:
-        examples=sources("config/examples/*.yaml"),
+        examples=[source(f"config/examples/{name}.yaml") for name in ("bowl", "linear", "trough")],
     output:
         **tables_of("operating/throws"),
     log:
