@@ -138,5 +138,5 @@ def report(template: str, found: dict[str, np.ndarray], settings: dict) -> str:
 
 def make(settings: dict, template: str, *, progress: str | None = None) -> dict:
     """The columns of the table, and the page from its template; `settings` are the arguments of `columns`."""
-    found = columns(**settings, progress=progress)
-    return {"benchmark": found, "report": report(template, found, settings)}
+    columns_of_cases = columns(**settings, progress=progress)
+    return {"benchmark": columns_of_cases, "report": report(template, columns_of_cases, settings)}

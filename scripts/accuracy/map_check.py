@@ -39,7 +39,7 @@ TABLES = {
         fields.count("period", "excitation cycles; 0 for none"),
         fields.count("cycles", "simulated excitation cycles"),
         fields.number("exponent", "1/s", "largest Lyapunov exponent; null for periodic motions"),
-        fields.number("exponent_error", "1/s", "its standard error; null for periodic motions"),
+        fields.number("exponent_error", "1/s", "standard error of the exponent; null for periodic motions"),
     ),
 }
 
@@ -167,5 +167,5 @@ def make(
         label, near_boundary = table.state.to_numpy()[rows], near.ravel()[rows]
         chosen.append(pd.DataFrame({"map": name, "row": rows, "near_boundary": near_boundary, "label": label}))
         parameters += [grid.product(axes, table.attrs["model"], (row, row + 1))[1] for row in rows.tolist()]
-    found = brute_force(np.concatenate(parameters), settings, threads=threads, progress=progress)
-    return pd.concat(chosen, ignore_index=True).to_dict("list") | found
+    simulated = brute_force(np.concatenate(parameters), settings, threads=threads, progress=progress)
+    return pd.concat(chosen, ignore_index=True).to_dict("list") | simulated

@@ -163,8 +163,8 @@ def sample_trajectory(method: Method, run: Run | None, settings: dict) -> tuple[
         limit = 2 * settings["max_evaluations"]
         name, treatment, tolerance, _ = method
         parameters = grid.row_of(settings["model"])
-        found = peers.run(parameters, settings["duration"], name, treatment, tolerance, limit, times)
-        return found.samples[:, [0, 2]], found.events
+        summary = peers.run(parameters, settings["duration"], name, treatment, tolerance, limit, times)
+        return summary.samples[:, [0, 2]], summary.events
     samples = run.sample(times)
     return np.stack([samples["x"], samples["z"]], axis=1), contact_changes(run.events)
 

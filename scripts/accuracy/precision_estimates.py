@@ -57,7 +57,7 @@ def exponent_rows(model: dict, durations: Sequence[float] = DURATIONS) -> list[d
     there["z0"] += EPSILON * unit
     # Without renormalisation, only the end of the run is compared.
     pair = {"output": "z", "last": AT_END, "samples": 1, "tolerance": TOLERANCE}
-    found = []
+    rows = []
     for duration in durations:
         cycles = round(duration / cycle)
         estimates = {
@@ -71,11 +71,11 @@ def exponent_rows(model: dict, durations: Sequence[float] = DURATIONS) -> list[d
                 here, orbit.state[None], transient=0, cycles=cycles // 2, blocks=2, tolerance=TOLERANCE
             ).lambda_1[0],
         }
-        found += [
+        rows += [
             {"quantity": "exponent", "estimator": name, "work": cycles, "error": abs(value / truth - 1.0)}
             for name, value in estimates.items()
         ]
-    return found
+    return rows
 
 
 def dimension_rows() -> list[dict]:
@@ -85,7 +85,7 @@ def dimension_rows() -> list[dict]:
         "boxes, as in the paper": box_dimension_of_paper,
         "correlation sum": lambda points: correlation_dimension(points, 0),
     }
-    found = []
+    rows = []
     for name, estimate in estimators.items():
         for count in POINTS:
             rng = np.random.default_rng(SEED)
@@ -94,8 +94,8 @@ def dimension_rows() -> list[dict]:
                 for _ in range(SETS)
                 for draw, truth in REFERENCE_DIMENSIONS.items()
             ]
-            found.append({"quantity": "dimension", "estimator": name, "work": count, "error": np.nanmedian(errors)})
-    return found
+            rows.append({"quantity": "dimension", "estimator": name, "work": count, "error": np.nanmedian(errors)})
+    return rows
 
 
 def fit_rows(data: pd.DataFrame, regression: dict) -> list[dict]:

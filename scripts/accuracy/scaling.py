@@ -121,8 +121,8 @@ def measure_gathering(case: dict, folder: Path) -> dict[str, float]:
     copies = paths if len(paths) == count else paths * min(count, MOST_GATHERED)
     rows = sum(pq.read_metadata(path).num_rows for path in copies)
     joined = folder / "all.parquet"
-    found = measure_job(settings=case["settings"], shards=copies, rows=rows, path=str(joined))
-    return found | {"rows": rows, "bytes": joined.stat().st_size}
+    measured = measure_job(settings=case["settings"], shards=copies, rows=rows, path=str(joined))
+    return measured | {"rows": rows, "bytes": joined.stat().st_size}
 
 
 def summarise(rounds: list[list[dict[str, float]]]) -> list[dict[str, float]]:

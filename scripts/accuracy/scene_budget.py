@@ -95,17 +95,17 @@ def variants_of(section: str, settings: dict, tolerances: list[float]) -> list[t
     """
     needs = settings.get("needs", "feeding")
     name = "vertical" if SHOWN[section].vertical else needs
-    found = [(name, settings)]
+    variants = [(name, settings)]
     if section == "impacts":
-        return found  # closed forms have no tolerance
-    found += [
+        return variants  # closed forms have no tolerance
+    variants += [
         (name, settings | {"tolerance": tolerance}) for tolerance in tolerances if tolerance > settings["tolerance"]
     ]
     if needs == "vertical":
-        found.append(("feeding", settings | {"needs": "feeding"}))
+        variants.append(("feeding", settings | {"needs": "feeding"}))
     if section == "sweeps":
-        found.append((HALF, settings | {"duration": 0.5 * settings["duration"]}))
-    return found
+        variants.append((HALF, settings | {"duration": 0.5 * settings["duration"]}))
+    return variants
 
 
 def measure_work(parameters: np.ndarray, tolerance: float) -> tuple[float, float]:

@@ -24,10 +24,10 @@ COLUMNS = ("scene", "run", "seconds", "time", *COMPARED)  # of a CSV file with r
 
 def read_scenes(folder: Path) -> dict[str, dict]:
     """The scenes of the benchmark by name; ValueError if the folder has none."""
-    found = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json"))}
-    if not found:
+    scenes = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(folder.glob("*.json"))}
+    if not scenes:
         raise ValueError(f"{folder} has no scenes; make them: snakemake docs/add_your_solver.md")
-    return found
+    return scenes
 
 
 def root_mean_square(scene: dict, errors: dict[str, np.ndarray]) -> float:
@@ -115,10 +115,10 @@ def score_file(scenes: dict[str, dict], file: Path) -> list[dict]:
     """Scores of a Python file with the function `solve`, or of a CSV file with results."""
     if file.suffix == ".csv":
         return list(score_numbers(scenes, file.stem, pd.read_csv(file)))
-    found = runpy.run_path(str(file))
-    if "solve" not in found:
+    module = runpy.run_path(str(file))
+    if "solve" not in module:
         raise ValueError(f"{file} has no function solve(scene, tolerance)")
-    return list(score_function(scenes, file.stem, found["solve"], found.get("TOLERANCES", TOLERANCES)))
+    return list(score_function(scenes, file.stem, module["solve"], module.get("TOLERANCES", TOLERANCES)))
 
 
 def pack_scene(scene: dict) -> np.ndarray:

@@ -27,14 +27,14 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     generator = np.random.default_rng(settings["seed"])
     parameters["z0"] = np.tile(generator.uniform(*settings["z0"], starts), len(amplitudes))
     parameters["psi0"] = np.tile(generator.uniform(0.0, 2.0 * math.pi, starts), len(amplitudes))
-    found = classify(
+    labels = classify(
         parameters, cycles=settings["cycles"], tolerance=settings["tolerance"], threads=threads, progress=progress
     )
     return {
         "acceleration": np.repeat(amplitudes, starts),
         "z0": parameters["z0"],
         "psi0": parameters["psi0"],
-        "state": found.state,
-        "period": found.period,
-        "cycles": found.cycles,
+        "state": labels.state,
+        "period": labels.period,
+        "cycles": labels.cycles,
     }

@@ -88,8 +88,8 @@ def run_to_end(
     if method == "event":
         run = simulate(conveyor, start, duration=duration, tolerance=tolerance)
         return run.z_end, run.vz_end, run.max_gap
-    found = fixed_step.run(parameter_table(conveyor, start), whole_steps(duration, step), step, method)
-    return found.z, found.vz, found.max_gap
+    summary = fixed_step.run(parameter_table(conveyor, start), whole_steps(duration, step), step, method)
+    return summary.z, summary.vz, summary.max_gap
 
 
 def outcome_at_rest(method: str, step: float, stiffness: float, damping: float) -> str:
@@ -133,12 +133,12 @@ def impact_limit(method: str, conveyor: Conveyor, speed: float) -> float:
 
 def outcome_of_impact(method: str, step: float, speed: float, conveyor: Conveyor) -> str:
     """Outcome of one Hertz impact, compared with the event-driven solver."""
-    found, truth = restitution(method, step, speed, conveyor), restitution("event", math.nan, speed, conveyor, TRUTH)
-    if not math.isfinite(found):
+    outcome, truth = restitution(method, step, speed, conveyor), restitution("event", math.nan, speed, conveyor, TRUTH)
+    if not math.isfinite(outcome):
         return BLOWS_UP
-    if found > 1.0:
+    if outcome > 1.0:
         return GROWS
-    return RIGHT if abs(found - truth) < RESTITUTION else WRONG
+    return RIGHT if abs(outcome - truth) < RESTITUTION else WRONG
 
 
 def outcome_of_steps(found: fixed_step.Summary, truth: Run, most: float, right: bool) -> str:

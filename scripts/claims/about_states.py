@@ -55,8 +55,8 @@ def interval(
         f"{len(at_end)} initial heights; the largest of them is {MM * first.z0.max():.3g} mm"
     )
     if tension is not None:
-        found = describe_tensions(tension, lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
-        note += f". With two initial heights, for each treatment of a tensile contact force: {found}"
+        described = describe_tensions(tension, lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
+        note += f". With two initial heights, for each treatment of a tensile contact force: {described}"
     quantities = ({"lower_end": lower, "upper_end": upper} for lower, upper in ends.values())
     return Finding(*quantities, note + about_proofs.describe_coexistence(certificates))
 
@@ -109,10 +109,10 @@ def critical_at(table: pd.DataFrame, acceleration: float) -> float:
 def largest_critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, heights: pd.DataFrame) -> Finding:
     """Largest critical height (mm) over the amplitudes of Fig. 9."""
     amplitudes = np.sort(heights.acceleration.unique())
-    found = by_method(
+    values = by_method(
         lambda table: pd.Series([MM * critical_at(table, one) for one in amplitudes], amplitudes), euler, converged
     )
-    where = found["converged"].idxmax() if found["converged"].notna().any() else NONE
+    where = values["converged"].idxmax() if values["converged"].notna().any() else NONE
     note = (
         f"The largest height occurs at {format_amplitude(where)}, where the critical height depends strongly on the "
         "amplitude"
@@ -126,7 +126,7 @@ def largest_critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, hei
             f"(converged). The state changes more than once over z0 at {repeated} of "
             f"{converged.acceleration.nunique()} amplitudes"
         )
-    return Finding(*({"largest_height": by_amplitude.max()} for by_amplitude in found.values()), note)
+    return Finding(*({"largest_height": by_amplitude.max()} for by_amplitude in values.values()), note)
 
 
 def critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, acceleration: float) -> Finding:
@@ -144,14 +144,14 @@ def velocities(table: pd.DataFrame, state: str) -> tuple[float, float]:
 def first_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.DataFrame) -> Finding:
     """Velocity (cm/s) of the first state at both ends of the interval with two states."""
     ends = by_method(lambda table: velocities(table, "first"), euler, converged)
-    found = describe_tensions(
+    described = describe_tensions(
         tension, lambda rows: f"{100.0 * rows[rows.state == 'first'].mean_velocity.max():.2f} cm/s"
     )
     low, high = ends["converged"]
     deviation = 100.0 * (ends["euler"][1] / high - 1.0)
     note = (
         f"The velocity rises by {high - low:.2f} cm/s. The paper's method deviates by {deviation:+.1f} % at the upper "
-        f"end. The largest velocity at any amplitude, for each treatment of a tensile contact force: {found}"
+        f"end. The largest velocity at any amplitude, for each treatment of a tensile contact force: {described}"
     )
     quantities = ({"velocity_at_lower_end": lower, "velocity_at_upper_end": upper} for lower, upper in ends.values())
     return Finding(*quantities, note)
@@ -161,11 +161,11 @@ def second_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd
     """Decrease (cm/s) of the velocity of the second state over the interval with two states."""
     ends = by_method(lambda table: velocities(table, "second"), euler, converged)
     medians = 100.0 * converged[converged.state == "second"].groupby("acceleration").mean_velocity.median()
-    found = describe_tensions(tension, lambda rows: "{:.2f} to {:.2f} cm/s".format(*velocities(rows, "second")))
+    described = describe_tensions(tension, lambda rows: "{:.2f} to {:.2f} cm/s".format(*velocities(rows, "second")))
     least = f"Its minimum, {medians.min():.2f} cm/s, is at {medians.idxmin():g} m/s². " if len(medians) else ""
     note = (
         f"The velocity falls from {ends['converged'][0]:.2f} to {ends['converged'][1]:.2f} cm/s. {least}"
-        f"For each treatment of a tensile contact force, over its own interval: {found}"
+        f"For each treatment of a tensile contact force, over its own interval: {described}"
     )
     return Finding(*({"fall": lower - upper} for lower, upper in ends.values()), note)
 
@@ -183,15 +183,15 @@ def fit(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
         row = table.set_index("fit").loc["pymoo"]
         return {name: float(row[name]) for name in ("A", "B", "C", "error")}
 
-    found = by_method(best, euler, converged)
+    values = by_method(best, euler, converged)
     paper_error = float(converged.set_index("fit").loc["paper"].error)
     valley = flat_part(converged)
     note = (
         f"A, B and C are poorly determined. On the converged heights, the paper's values have the error "
-        f"{paper_error:.3g} m², and the best values {found['converged']['error']:.3g} m². Every B from "
+        f"{paper_error:.3g} m², and the best values {values['converged']['error']:.3g} m². Every B from "
         f"{valley.B.min():.4g} to {valley.B.max():.4g} m/s² with its best A and C fits no worse than the paper's"
     )
-    return Finding(found["euler"], found["converged"], note)
+    return Finding(values["euler"], values["converged"], note)
 
 
 def find_runs(x: ArrayLike, chosen: ArrayLike) -> list[tuple[float, float]]:
@@ -266,9 +266,9 @@ def vertical_lines(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
 
 def horizontal_lines(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     """Lines that the feeding velocity has more in the first state; mean over largest line in the second."""
-    found = by_method(lambda table: count_lines(table, "vx"), euler, converged)
+    values = by_method(lambda table: count_lines(table, "vx"), euler, converged)
     return Finding(
-        *({"more_lines": float(first - second), "mean_over_line": ratio} for first, second, ratio in found.values())
+        *({"more_lines": float(first - second), "mean_over_line": ratio} for first, second, ratio in values.values())
     )
 
 

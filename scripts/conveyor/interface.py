@@ -77,8 +77,8 @@ def basin(
     except ValueError as error:
         raise ValueError(f"z and vz: {error}") from None
     attractors = search.find_attractors(parameters[:1, 0], **options)
-    found = labels.classify(parameters, attractors=attractors, **options)
-    return Basin(heights.astype(np.float64), speeds.astype(np.float64), found.state, found.period)
+    labelled = labels.classify(parameters, attractors=attractors, **options)
+    return Basin(heights.astype(np.float64), speeds.astype(np.float64), labelled.state, labelled.period)
 
 
 def periodic_orbit(

@@ -96,8 +96,8 @@ def list_keys(schema: dict, path: tuple[str, ...] = ()) -> Iterator[Key]:
 
 def comment_of(line: str) -> str:
     """The comment of a line, after a value or alone; "" for none."""
-    found = re.search(r"(?:^|\s)#\s*(.*)$", QUOTED.sub(lambda quoted: "_" * len(quoted[0]), line))
-    return line[found.start(1) :].strip() if found else ""
+    match = re.search(r"(?:^|\s)#\s*(.*)$", QUOTED.sub(lambda quoted: "_" * len(quoted[0]), line))
+    return line[match.start(1) :].strip() if match else ""
 
 
 def comment_above(lines: list[str], line: int) -> str:

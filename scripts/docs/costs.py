@@ -37,8 +37,8 @@ def jobs_of(target: str, table: pd.DataFrame) -> set[str]:
 def compile_seconds(file: str) -> float:
     """The time that the job with a benchmark file has spent compiling, s, from its log; 0 if it compiled nothing."""
     log = Path(file.replace("/benchmarks/", "/logs/")).with_suffix(".log")
-    found = re.search(rf"^{COMPILED}([\d.]+) s$", log.read_text(encoding="utf-8"), re.MULTILINE)
-    return float(found[1]) if found else 0.0
+    match = re.search(rf"^{COMPILED}([\d.]+) s$", log.read_text(encoding="utf-8"), re.MULTILINE)
+    return float(match[1]) if match else 0.0
 
 
 def sum_costs(files: set[str]) -> dict[str, float | int]:

@@ -117,12 +117,12 @@ def group_keys(known: list[Key], defaults: list[FileKey]) -> dict[str, list[dict
 def list_entries(known: list[Key], defaults: list[FileKey]) -> dict[str, list[dict]]:
     """Entries of the sections in which the user names the entries, with their comments."""
     named = {key.path[0] for key in known if len(key.path) > 1 and key.path[1] == "NAME"}
-    found = {section: [] for section in named}
+    entries = {section: [] for section in named}
     for key in defaults:
         section, *rest = key.path
         if section in named and len(rest) == 1:
-            found[section].append({"name": rest[0], "comment": key.above or key.beside})
-    return found
+            entries[section].append({"name": rest[0], "comment": key.above or key.beside})
+    return entries
 
 
 def group_modules(library: list[str]) -> dict[str, list[str]]:

@@ -12,7 +12,7 @@ from conveyor import (
     sweep,
 )
 from pipeline import fields, grid
-from pipeline.motions import Limits, Table, find_limits, follow, is_slow, shared_attractors
+from pipeline.labelling import Limits, Table, find_limits, is_slow, label_within_limits, shared_attractors
 
 NOT_LOCATED = "between two heights of the scan"
 TABLES = {
@@ -38,7 +38,7 @@ def find_states(
         run = {name: settings[name] for name in ("duration", "method", "step")}
         runs = sweep(parameters, needs="vertical", chunk=8, threads=threads, **run)
         parameters = continued(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
-    return follow(parameters, known, settings, limits=limits, threads=threads).state
+    return label_within_limits(parameters, known, settings, limits=limits, threads=threads).state
 
 
 def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
@@ -55,16 +55,16 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     table = Table(parameters, starts, (len(parameters), decisions))
     slow = is_slow(table, settings, known=known, threads=threads)
     limits = find_limits(parameters, table, known, settings, threads=threads) if slow else None
-    found = find_crossings(
+    crossings = find_crossings(
         parameters, heights, lambda rows: find_states(rows, settings, known, limits, threads), settings["resolution"]
     )
-    first_row = np.searchsorted(found.point, found.point)
+    first_row = np.searchsorted(crossings.point, crossings.point)
     return {
-        **{name: values[found.point] for name, values in axes.items()},
-        "z0": found.height,
-        "crossing": np.arange(len(found.point)) - first_row + 1,
-        "state_below": found.below,
-        "state_above": found.above,
-        "is_critical": select_critical(found.point, found.below) & (found.above != "undecided"),
-        "status": np.where(found.located, "ok", NOT_LOCATED),
+        **{name: values[crossings.point] for name, values in axes.items()},
+        "z0": crossings.height,
+        "crossing": np.arange(len(crossings.point)) - first_row + 1,
+        "state_below": crossings.below,
+        "state_above": crossings.above,
+        "is_critical": select_critical(crossings.point, crossings.below) & (crossings.above != "undecided"),
+        "status": np.where(crossings.located, "ok", NOT_LOCATED),
     }

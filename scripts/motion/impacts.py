@@ -4,7 +4,7 @@ import numpy as np
 
 from conveyor import first_impacts, on_conveyor
 from pipeline import fields, grid
-from pipeline.motions import motions
+from pipeline.labelling import label_entry
 
 TABLES = {
     "impacts": (
@@ -24,7 +24,7 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     mapped = np.isfinite(impacts.time)
     images = on_conveyor(parameters, impacts)[mapped]
     # One call, because the initial conditions of a conveyor share the search for its attractors.
-    states = motions(np.concatenate([parameters, images]), settings, threads=threads).state
+    states = label_entry(np.concatenate([parameters, images]), settings, threads=threads).state
     state, image_states = np.split(states, [len(parameters)])
     mapped_state = np.full(len(parameters), None, dtype=object)
     mapped_state[mapped] = image_states

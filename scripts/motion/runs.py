@@ -4,7 +4,7 @@ import numpy as np
 
 from conveyor import Columns, Run, conveyor_and_start, simulate
 from pipeline import grid
-from pipeline.motions import motions_after
+from pipeline.labelling import label_ends
 
 
 def simulate_entry(settings: dict, threads: int = 1) -> tuple[dict[str, np.ndarray], list[Run], Columns]:
@@ -13,4 +13,4 @@ def simulate_entry(settings: dict, threads: int = 1) -> tuple[dict[str, np.ndarr
     axes, parameters = grid.product(settings["axes"], settings["model"])
     runs = [simulate(*conveyor_and_start(row), **options) for row in parameters]
     ends = np.array([(run.z_end, run.vz_end) for run in runs]).T
-    return axes, runs, motions_after(parameters, *ends, settings, threads=threads)
+    return axes, runs, label_ends(parameters, *ends, settings, threads=threads)

@@ -35,12 +35,12 @@ TABLES = {
     "changes": (
         AIM,
         fields.text("parameter", "changed parameter"),
-        fields.number("value", "SI", "its new value"),
+        fields.number("value", "SI", "new value of the parameter"),
         *MEASURES,
         fields.number("gain", "1", "relative change of the 5 % quantile of the velocity, with the same parts"),
-        fields.number("gain_stderr", "1", "its standard error, from resamples of the parts"),
+        fields.number("gain_stderr", "1", "standard error of gain, from resamples of the parts"),
         fields.number("widening", "1", "relative change of the relative spread, with the same parts"),
-        fields.number("widening_stderr", "1", "its standard error, from resamples of the parts"),
+        fields.number("widening_stderr", "1", "standard error of widening, from resamples of the parts"),
     ),
 }
 

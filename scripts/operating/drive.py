@@ -128,8 +128,8 @@ def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np
     outcome = pd.DataFrame({"displacement": displacement(designs)}).reindex(columns=[*WORST, "displacement"])
     within = outcome.displacement.to_numpy() <= settings["displacement"]
     if within.any():
-        found = evaluate(designs[within], settings, SEARCH_ERRORS)
-        outcome.loc[within, found.columns] = found.to_numpy()
+        outcomes = evaluate(designs[within], settings, SEARCH_ERRORS)
+        outcome.loc[within, outcomes.columns] = outcomes.to_numpy()
     objectives = np.column_stack([-outcome.velocity, outcome.impact_speed, designs[:, 0]])
     return np.where(np.isnan(objectives), np.inf, objectives), constraints(outcome, settings)
 
@@ -147,9 +147,9 @@ def search(settings: dict, seed: int, count: Callable[[], object]) -> pareto.Fro
     bounds = bounds_of_points(settings["bounds"])
 
     def evaluate_points(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        found = search_outcomes(designs_of(points, settings["bounds"]), settings)
+        outcomes = search_outcomes(designs_of(points, settings["bounds"]), settings)
         count()
-        return found
+        return outcomes
 
     drawn = np.random.default_rng(seed).uniform(*bounds, (settings["drawn"], len(SEARCHED)))
     front = pareto.search(evaluate_points, drawn, bounds, reference_point(settings), settings, seed, constraints=5)

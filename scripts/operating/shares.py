@@ -14,7 +14,7 @@ from conveyor.elementary import cos, sin
 from operating import regimes
 from operating.parts import parameters_of, starts_of_box
 from pipeline import fields, grid
-from pipeline.motions import limit_of_mean, mean_settling, motions_of_starts
+from pipeline.labelling import label_starts, limit_of_mean, mean_settling
 from pipeline.sizes import WHOLE_MAP
 
 TABLES = {
@@ -28,7 +28,7 @@ TABLES = {
         fields.number("share", "1", "share of all initial conditions that lead to the motion"),
         fields.number("stderr", "1", "standard error of the share"),
         fields.number("mean_velocity", "m/s", "mean feeding velocity of the motion; null where it is not known"),
-        fields.number("velocity_stderr", "m/s", "its standard error, from several of these trajectories"),
+        fields.number("velocity_stderr", "m/s", "standard error of mean_velocity, from several trajectories"),
         fields.number("impact_speed", "m/s", "largest speed of approach at an impact; 0 for none, null if unknown"),
         fields.number("peak_force", "N", "largest contact force; null if unknown"),
         fields.text("status", "ok, or why there is no velocity"),
@@ -160,7 +160,7 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
     return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters["frequency"]
 
 
-def motions_of_conveyors(
+def motion_shares(
     parameters: np.ndarray,
     starts: int,
     settings: dict,
@@ -173,15 +173,15 @@ def motions_of_conveyors(
     parameters : shape (k starts,)
     Returns the columns of the table and `conveyor`, its number.
     """
-    found = motions_of_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
-    number = groups(found, np.arange(len(parameters)) // starts)
+    labels = label_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
+    number = groups(labels, np.arange(len(parameters)) // starts)
     _, first, count = np.unique(number, return_index=True, return_counts=True)
     # The trajectories of each motion that have settled first are followed further.
-    most = np.where(found.state[first] == "undecided", 0, settings["followed"])
-    order = np.lexsort((found.cycles, number))
+    most = np.where(labels.state[first] == "undecided", 0, settings["followed"])
+    order = np.lexsort((labels.cycles, number))
     rank = np.arange(len(order)) - np.repeat(np.cumsum(count) - count, count)
     chosen = order[rank < np.repeat(most, count)]
-    of_chosen = found.select(chosen)
+    of_chosen = labels.select(chosen)
     each, each_peaks, each_status = velocities(parameters[chosen], of_chosen, settings, threads=threads)
     velocity, error, peaks = np.full(len(first), np.nan), np.full(len(first), np.nan), np.full((len(first), 2), np.nan)
     status = np.where(most > 0, "ok", regimes.UNDECIDED).astype(object)
@@ -200,9 +200,9 @@ def motions_of_conveyors(
             "conveyor": first // starts,
             "acceleration": acceleration,
             "vertical": acceleration * sin(parameters["angle"][first]) / normal_gravity,
-            "state": found.state[first],
-            "period": found.period[first],
-            "longest_flight": found.longest_flight[first],
+            "state": labels.state[first],
+            "period": labels.period[first],
+            "longest_flight": labels.longest_flight[first],
             "starts": count,
             "share": share,
             "stderr": np.sqrt(share * (1.0 - share) / starts),
@@ -215,13 +215,11 @@ def motions_of_conveyors(
     )
 
 
-def motions_at(
-    amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None
-) -> pd.DataFrame:
+def shares_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
     """The table for some amplitudes (m/s²), ascending, shape (m,)."""
     starts = starts_of_box(settings)
     parameters = parameters_of(amplitudes, starts, settings["model"])
-    table = motions_of_conveyors(parameters, len(starts), settings, threads=threads, progress=progress)
+    table = motion_shares(parameters, len(starts), settings, threads=threads, progress=progress)
     order = {"by": ["acceleration", "mean_velocity", "starts"], "ascending": [True, False, False]}
     table = table.drop(columns="conveyor").sort_values(**order, ignore_index=True)
     return table.assign(motion=table.groupby("acceleration").cumcount() + 1)
@@ -230,7 +228,7 @@ def motions_at(
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
     """The tables of shares and of regimes for the settings of the config."""
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
-    table = motions_at(amplitudes, settings, threads=threads, progress=progress)
+    table = shares_at(amplitudes, settings, threads=threads, progress=progress)
     while True:
         summary = regimes.summarize_amplitudes(table, settings["same_velocity"])
         places, found = summary.acceleration.to_numpy(), summary.regime.to_numpy()
@@ -239,5 +237,5 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
             return {"shares": table, "regimes": regimes.intervals_of(summary, table)}
         between = 0.5 * (places[1:] + places[:-1])[wide]
         label = progress and f"{progress}, amplitudes between: {len(between)}"
-        new = motions_at(between, settings, threads=threads, progress=label)
+        new = shares_at(between, settings, threads=threads, progress=label)
         table = pd.concat([table, new]).sort_values(["acceleration", "motion"], ignore_index=True)

@@ -44,7 +44,7 @@ def make(examples: list[str], settings: dict, *, threads: int = 1, progress: str
         own = settings_of_conveyor(settings, model)
         amplitudes = throws / throw_number(1.0, **own["model"])
         label = progress and f"{progress}: {name}"
-        table = shares.motions_at(amplitudes, own, threads=threads, progress=label)
+        table = shares.shares_at(amplitudes, own, threads=threads, progress=label)
         textbook = throw_velocity(table.acceleration, **own["model"])
         tables.append(table.assign(conveyor=name, textbook=textbook))
     return pd.concat(tables, ignore_index=True)

@@ -13,7 +13,7 @@ from operating.parts import parameters_of, starts_of_box
 from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY, plate_speed, steepness
 from operating.shares import FORGOTTEN, SETTLED, brief_durations, continue_normal
 from pipeline import fields, grid
-from pipeline.motions import motions_of_starts
+from pipeline.labelling import label_starts
 
 STATES = ("first", "second")
 NOT_REACHED = "no initial condition leads to the state"
@@ -37,20 +37,20 @@ def settled_motions(
     starts, amplitude = starts_of_box(settings), np.array([settings["acceleration"]])
     models = [{**settings["model"], "inclination": value} for value in inclinations]
     rows = np.concatenate([parameters_of(amplitude, starts, model) for model in models])
-    found = motions_of_starts(rows, settings, starts=len(starts), threads=threads)
+    labels = label_starts(rows, settings, starts=len(starts), threads=threads)
     motions = []
     for number in range(len(inclinations)):
         own = np.arange(number * len(starts), (number + 1) * len(starts))
         for place, state in enumerate(STATES):
             # The trajectory with the most frequent period that settles first.
-            members = own[(found.state[own] == state) & (found.period[own] > 0)]
+            members = own[(labels.state[own] == state) & (labels.period[own] > 0)]
             if len(members):
-                period = np.bincount(found.period[members]).argmax()
-                members = members[found.period[members] == period]
-                motions.append((number, place, period, members[found.cycles[members].argmin()]))
+                period = np.bincount(labels.period[members]).argmax()
+                members = members[labels.period[members] == period]
+                motions.append((number, place, period, members[labels.cycles[members].argmin()]))
     number, state, period, first = np.array(motions, dtype=np.int64).reshape(len(motions), 4).T
-    settled = continue_normal(rows[first], found.cycles[first] + FORGOTTEN, settings, threads=threads)
-    is_open = ((found.period == 0) & (found.state != "chaos")).reshape(len(inclinations), len(starts)).any(axis=1)
+    settled = continue_normal(rows[first], labels.cycles[first] + FORGOTTEN, settings, threads=threads)
+    is_open = ((labels.period == 0) & (labels.state != "chaos")).reshape(len(inclinations), len(starts)).any(axis=1)
     return number, state, period, settled, is_open
 
 

@@ -178,7 +178,7 @@ def orbits_at(parameters: np.ndarray, branch: int, line: Line, acceleration: flo
     If Newton's method finds no orbit between two points of the branch, their interpolation is used; its proof then
     fails with a reason.
     """
-    returns, found = ReturnMap(parameters, line.period), []
+    returns, orbits = ReturnMap(parameters, line.period), []
     above = line.points[:, 2] > acceleration
     for i in np.flatnonzero(above[1:] != above[:-1]):
         begin, end = line.points[i : i + 2]
@@ -186,10 +186,10 @@ def orbits_at(parameters: np.ndarray, branch: int, line: Line, acceleration: flo
         guess = returns.scaled(acceleration, point[:2])
         unknown = returns.newton(guess)
         unknown = guess if unknown is None else unknown
-        distances = [np.abs(other.strobes - unknown[:2]).max(axis=1).min() for other in found]
+        distances = [np.abs(other.strobes - unknown[:2]).max(axis=1).min() for other in orbits]
         if min(distances, default=np.inf) > SAME_ORBIT:
-            found.append(float_orbit(branch, returns, unknown))
-    return found
+            orbits.append(float_orbit(branch, returns, unknown))
+    return orbits
 
 
 def stored_lines(table: pd.DataFrame, longest_period: int) -> dict[int, Line]:
@@ -293,17 +293,17 @@ def prove_bifurcation(settings: dict, kind: str, number: int, row: dict) -> dict
     about = {"kind": kind, "number": number, "period": period, "stored_acceleration": stored}
     try:
         if kind == "fold":
-            found = bracket_fold(problem, stored, strobes, HALF_ARC)
+            bracket = bracket_fold(problem, stored, strobes, HALF_ARC)
         else:
-            found = bracket_doubling(problem, stored, strobes, HALF_WIDTH)
+            bracket = bracket_doubling(problem, stored, strobes, HALF_WIDTH)
     except Refused as refused:
         return about | {"proved": False, "reason": str(refused)}
-    begin, end = found.tests
+    begin, end = bracket.tests
     return {
         **about,
         "proved": True,
         "reason": None,
-        **bounds_columns("acceleration", found.acceleration),
+        **bounds_columns("acceleration", bracket.acceleration),
         **bounds_columns("test_begin", begin),
         **bounds_columns("test_end", end),
     }

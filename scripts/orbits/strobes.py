@@ -4,7 +4,7 @@ import numpy as np
 
 from conveyor import BEGIN_OF_CYCLE, Columns, classify, follow_attractor, for_each_chunk, replace_parameters, start_at
 from pipeline import fields, grid
-from pipeline.motions import mean_limit
+from pipeline.labelling import mean_limit
 
 TABLES = {
     "strobes": (
@@ -30,17 +30,17 @@ def label_motions(parameters: np.ndarray, settings: dict, *, threads: int = 1, p
     options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
     if mean >= most:
         return classify(parameters, cycles=most, **options)
-    found = classify(parameters, cycles=mean, exponents=False, **options)
-    late = np.flatnonzero(found.cycles >= mean)
+    labels = classify(parameters, cycles=mean, exponents=False, **options)
+    late = np.flatnonzero(labels.cycles >= mean)
     if len(late):
-        left = (mean * len(parameters) - int(found.cycles.sum())) // len(late)
-        states = np.column_stack([found.delta, found.v])[late]
+        left = (mean * len(parameters) - int(labels.cycles.sum())) // len(late)
+        states = np.column_stack([labels.delta, labels.v])[late]
         at_top = replace_parameters(parameters[late], psi0=BEGIN_OF_CYCLE)
         rows = start_at(at_top, states, settings["tolerance"])
         later = classify(rows, cycles=min(most - mean, left), **options)
         for name, values in later.items():
-            found[name][late] = values
-    return found
+            labels[name][late] = values
+    return labels
 
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:

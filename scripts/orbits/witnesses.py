@@ -12,7 +12,7 @@ TABLES = {
         fields.ORBIT[1],
         fields.text("branch", "up or down, as in the table of strobes"),
         fields.number("lambda_1", "1/s", "larger vertical Lyapunov exponent"),
-        fields.number("stderr", "1/s", "its standard error"),
+        fields.number("stderr", "1/s", "standard error of lambda_1"),
         fields.number("zero_one", "1", "K of the 0-1 test: 0 for regular, 1 for chaotic motion"),
         *fields.STATE,
         fields.flag("by_exponent", "whether the motion is chaotic by its exponent"),

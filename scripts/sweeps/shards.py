@@ -6,7 +6,7 @@ import numpy as np
 
 from conveyor import continued, sweep
 from pipeline import fields, grid
-from pipeline.motions import motions
+from pipeline.labelling import label_entry
 from pipeline.sizes import BLOCK
 
 TABLES = {
@@ -44,10 +44,10 @@ def columns(
     selected = slice(None) if ok.all() else ok  # a slice makes no copy
     ends = runs["z_end"][selected], runs["vz_end"][selected]
     parameters = continued(parameters[selected], *ends, settings["duration"])
-    found = motions(parameters, settings, threads=threads, progress=progress)
+    labels = label_entry(parameters, settings, threads=threads, progress=progress)
     state, period, flight = (
         fill_missing(ok, values, missing)
-        for values, missing in ((found.state, "undecided"), (found.period, 0), (found.longest_flight, np.nan))
+        for values, missing in ((labels.state, "undecided"), (labels.period, 0), (labels.longest_flight, np.nan))
     )
     return {**axes, **runs, "state": state, "period": period, "longest_flight": flight}
 

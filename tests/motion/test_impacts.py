@@ -5,7 +5,7 @@ import numpy as np
 from conveyor.analysis.basins.first_impact import first_impacts, on_conveyor
 from motion import impacts
 from pipeline import grid
-from pipeline.motions import motions
+from pipeline.labelling import label_entry
 
 SETTINGS = {
     "axes": {"acceleration": [40.0, 53.0], "z0": [-1.0e-3, 0.5e-4, 1.0e-4, 2.0e-4, 3.0e-4]},
@@ -21,8 +21,8 @@ def test_states_equal_the_states_of_single_runs():
     found = first_impacts(parameters)
     mapped = np.isfinite(found.time)
     assert 0 < np.count_nonzero(mapped) < len(parameters)
-    alone = motions(parameters, SETTINGS).state
-    images = motions(on_conveyor(parameters, found)[mapped], SETTINGS).state
+    alone = label_entry(parameters, SETTINGS).state
+    images = label_entry(on_conveyor(parameters, found)[mapped], SETTINGS).state
     assert made["state"].tolist() == alone.tolist()
     assert made["mapped_state"][mapped].tolist() == images.tolist()
     assert made["mapped_state"][~mapped].tolist() == [None] * np.count_nonzero(~mapped)

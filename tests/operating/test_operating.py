@@ -11,7 +11,7 @@ from project import ROOT, read_config
 
 from conveyor import Columns, Conveyor, Start, classify, conveyor_motion, ensemble, parameter_table, simulate
 from operating import advice, chart, parts, regimes, shares, throws, transit
-from pipeline.motions import motions
+from pipeline.labelling import label_entry
 from pipeline.templates import format_range
 from workflow.config.tables import TABLES
 
@@ -68,13 +68,13 @@ def test_motions_differ_by_conveyor_state_period_and_flight():
 @pytest.fixture(scope="module")
 def table():
     """Shares at two amplitudes with one and with two motions."""
-    return shares.motions_at(np.array([22.0, 40.0]), BOX)
+    return shares.shares_at(np.array([22.0, 40.0]), BOX)
 
 
 def test_labels_agree_with_sweeps(table):
     """The same initial conditions as rows of a sweep, without shared chaotic sets."""
     parameters = parts.parameters_of(np.array([40.0]), parts.starts_of_box(BOX), {})
-    found = motions(parameters, {**BOX, "axes": {"acceleration": [40.0]}})
+    found = label_entry(parameters, {**BOX, "axes": {"acceleration": [40.0]}})
     own = table[table.acceleration == 40.0].set_index("state").starts
     assert own.to_dict() == pd.Series(found.state).value_counts().to_dict()
     assert own.sum() == BOX["starts"]
@@ -225,10 +225,10 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
         labels = {"state": np.full(n, states), "period": np.ones(n, np.int64), "longest_flight": np.zeros(n)}
         return Columns(labels | {"cycles": np.arange(n)})
 
-    monkeypatch.setattr(shares, "motions_of_starts", motions_found)
+    monkeypatch.setattr(shares, "label_starts", motions_found)
     velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)
     monkeypatch.setattr(shares, "velocities", lambda *_, **__: velocities)
-    row = shares.motions_at(np.array([40.0]), BOX).iloc[0]
+    row = shares.shares_at(np.array([40.0]), BOX).iloc[0]
     assert (row.mean_velocity, row.velocity_stderr, row.status) == pytest.approx(wanted, nan_ok=True)
     assert row.starts == BOX["starts"]
     peaks = (0.2, 2.0) if row.status == "ok" else (np.nan, np.nan)
@@ -237,7 +237,7 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
 
 def test_the_standard_error_agrees_with_repeated_draws():
     drawn = [
-        shares.motions_at(np.array([40.0]), {**BOX, "seed": seed}).set_index("state").loc["first"] for seed in range(30)
+        shares.shares_at(np.array([40.0]), {**BOX, "seed": seed}).set_index("state").loc["first"] for seed in range(30)
     ]
     share = np.array([row.share for row in drawn])
     # A standard deviation from thirty draws is known to an eighth.
@@ -257,7 +257,7 @@ def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
         "stiffness": mass * gravity / length**paper.exponent * paper.stiffness,
     }
     box = {"height": [length * end for end in BOX["height"]], "vz0": [velocity * end for end in BOX["vz0"]]}
-    other = shares.motions_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model})
+    other = shares.shares_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model})
     for name in ("state", "period", "starts", "share", "stderr", "motion"):
         assert (other[name] == table[name]).all(), name
     assert np.allclose(other.vertical, table.vertical, rtol=1e-12)
@@ -293,7 +293,7 @@ SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "res
 
 @pytest.fixture
 def refined(monkeypatch) -> pd.DataFrame:
-    monkeypatch.setattr(shares, "motions_at", made_up)
+    monkeypatch.setattr(shares, "shares_at", made_up)
     found = shares.make(SETTINGS)["shares"]
     found.attrs = SETTINGS | {
         "model": {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0, "frequency": 50.0}
@@ -311,7 +311,7 @@ def test_amplitudes_are_halved_where_the_answer_changes(refined):
 
 
 def test_boundaries_are_located_with_a_limited_number_of_amplitudes(monkeypatch):
-    monkeypatch.setattr(shares, "motions_at", made_up)
+    monkeypatch.setattr(shares, "shares_at", made_up)
     monkeypatch.setattr(shares, "MOST_ADDED", 0)
     table = shares.make(SETTINGS)["shares"]
     np.testing.assert_array_equal(np.unique(table.acceleration), np.linspace(20.0, 60.0, 9))

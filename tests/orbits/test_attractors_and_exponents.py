@@ -10,7 +10,7 @@ from project import read_config
 
 from conveyor.analysis.attractors import labels
 from orbits import branches, exponents, seeds, strobes, witnesses
-from pipeline import grid, motions
+from pipeline import grid, labelling
 from pipeline.rule_log import JobError
 
 MODEL = {
@@ -93,7 +93,7 @@ def test_late_motions_share_the_cycles_that_early_ones_leave(monkeypatch, settle
     rows, wanted = settled
     assert {"first", "second", "chaos"} <= set(wanted.state)
     # Enough cycles for all, as the early motions need less than the mean.
-    monkeypatch.setattr(motions, "WHOLE_MAP", len(rows))
+    monkeypatch.setattr(labelling, "WHOLE_MAP", len(rows))
     enough = {**SETTLED, "mean_settling": 12_000}
     found = strobes.label_motions(rows, enough)
     assert found.state.tolist() == wanted.state.tolist()
@@ -111,7 +111,7 @@ def test_searches_of_many_motions_take_as_many_cycles_as_a_map(monkeypatch, sett
         counted.append(found.cycles.sum())
         return found
 
-    monkeypatch.setattr(motions, "WHOLE_MAP", len(rows))
+    monkeypatch.setattr(labelling, "WHOLE_MAP", len(rows))
     monkeypatch.setattr(strobes, "classify", count)
     found = strobes.label_motions(rows, SETTLED)
     assert 0.9 * 1000 * len(rows) < sum(counted) <= 1000 * len(rows)

@@ -4,7 +4,7 @@ import pytest
 from project import merged, read_config
 
 from pipeline import grid
-from pipeline.motions import batches_by_conveyor
+from pipeline.labelling import batches_by_conveyor
 from workflow.config import problems
 from workflow.config.entries import resolve
 from workflow.config.sharing import THREADS, conveyors_of, plan, throwing_share

@@ -46,12 +46,12 @@ def throwing_share(entry: dict) -> float:
 
 def conveyors_of(axes: dict, rows: int) -> int:
     """Number of conveyors in consecutive rows of a product of axes, of which the first varies slowest."""
-    found, stride = min(rows, 1), math.prod(map(count_values, axes.values()))
+    conveyors, stride = min(rows, 1), math.prod(map(count_values, axes.values()))
     for name, axis in axes.items():
         stride //= count_values(axis)
         if name not in STARTS:
-            found *= min(count_values(axis), math.ceil(rows / stride))
-    return found
+            conveyors *= min(count_values(axis), math.ceil(rows / stride))
+    return conveyors
 
 
 def known_of(entry: dict) -> str:

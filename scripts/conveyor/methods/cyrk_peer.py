@@ -19,7 +19,7 @@ def follow(method: str, parameters: np.ndarray, mode: int, task: Task) -> Leg:
     from CyRK import pysolve_ivp
 
     counting = np.append(parameters, 0.0)
-    found = pysolve_ivp(
+    solution = pysolve_ivp(
         counted_rates,
         (task.t, task.end),
         task.state,
@@ -32,8 +32,8 @@ def follow(method: str, parameters: np.ndarray, mode: int, task: Task) -> Leg:
         pass_dy_as_arg=True,
         dense_output=len(task.times) > 0,
     )
-    t = float(found.t[-1])
+    t = float(solution.t[-1])
     passed = task.times[task.times <= t]
-    samples = found.call_vectorize(passed).T if len(passed) else np.empty((0, 4))
-    ended = found.event_terminate_index if found.success and found.event_terminated else None
-    return Leg(t, found.y[:, -1].copy(), ended, samples, int(counting[-1]))
+    samples = solution.call_vectorize(passed).T if len(passed) else np.empty((0, 4))
+    ended = solution.event_terminate_index if solution.success and solution.event_terminated else None
+    return Leg(t, solution.y[:, -1].copy(), ended, samples, int(counting[-1]))

@@ -250,7 +250,7 @@ def run(parameters: np.ndarray, duration: float, restitution) -> Summary:
 
 
 def sample(parameters: np.ndarray, times: np.ndarray, restitution) -> dict[str, np.ndarray]:
-    """States x, z (m), vx, vz (m/s) at `times` (s, not negative, any shape and order); else as `run`."""
+    """States x, z (m), vx, vz (m/s) at `times` (s, not negative, any shape and order). For the rest see `run`."""
     return samples_and_impacts(parameters, times, restitution)[0]
 
 

@@ -25,12 +25,12 @@ def follow(method: str, parameters: np.ndarray, mode: int, task: Task) -> Leg:
         # Radau's numerical Jacobian of a part that never moves sideways overflows; peers.run checks the result.
         with np.errstate(over="ignore", invalid="ignore"):
             events = terminal_events(parameters, mode)
-            found = solve_ivp(right_side, (task.t, task.end), task.state, events=events, **options)
+            solution = solve_ivp(right_side, (task.t, task.end), task.state, events=events, **options)
     except ValueError as error:
         raise Failed(EVENT_LOST, int(counting[-1])) from error
     ended = None
-    if found.status == 1:
-        ended = next(place for place, times in enumerate(found.t_events) if len(times))
-    passed = task.times[task.times <= found.t[-1]]
-    samples = found.sol(passed).T if len(passed) else np.empty((0, 4))
-    return Leg(float(found.t[-1]), found.y[:, -1].copy(), ended, samples, int(counting[-1]))
+    if solution.status == 1:
+        ended = next(place for place, times in enumerate(solution.t_events) if len(times))
+    passed = task.times[task.times <= solution.t[-1]]
+    samples = solution.sol(passed).T if len(passed) else np.empty((0, 4))
+    return Leg(float(solution.t[-1]), solution.y[:, -1].copy(), ended, samples, int(counting[-1]))

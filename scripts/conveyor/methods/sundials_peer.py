@@ -40,10 +40,10 @@ def follow(solver: Any, task: Task) -> Leg:
     solver.init_step(task.t, task.state)
     states = []
     for wanted in np.union1d(task.times, task.end):
-        found = solver.step(wanted, "normal", task.end)
-        if not found.success or found.status == ROOT_FOUND:
+        step = solver.step(wanted, "normal", task.end)
+        if not step.success or step.status == ROOT_FOUND:
             break
-        states.append(found.y)
-    ended = int(np.flatnonzero(found.i_events[-1])[0]) if found.status == ROOT_FOUND else None
+        states.append(step.y)
+    ended = int(np.flatnonzero(step.i_events[-1])[0]) if step.status == ROOT_FOUND else None
     samples = np.array(states[: len(task.times)]).reshape(-1, 4)
-    return Leg(float(found.t), found.y, ended, samples, found.nfev)
+    return Leg(float(step.t), step.y, ended, samples, step.nfev)

@@ -41,7 +41,7 @@ MEETINGS = {
 def select_points(table: pd.DataFrame) -> dict[str, pd.DataFrame]:
     """The rows of each bifurcation that the figure names, by its label in POINTS."""
     folds = table[table.kind == "fold"]
-    found = {
+    points = {
         "lift-off of a riding part": table[table.rides],
         "part from rest leaves first state": table[table.kind == "critical_amplitude"],
         "first fold": folds[folds.acceleration == folds.acceleration.min()],
@@ -51,7 +51,7 @@ def select_points(table: pd.DataFrame) -> dict[str, pd.DataFrame]:
     }
     return {
         label: rows[(rows.status == "ok") & rows.parameter.isin(NAMES) & rows.elasticity.notna()]
-        for label, rows in found.items()
+        for label, rows in points.items()
     }
 
 

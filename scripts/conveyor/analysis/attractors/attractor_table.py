@@ -52,11 +52,11 @@ def find_places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     conveyors : float64, shape (m, 16), the conveyor of each row of the table, equal ones side by side
     Returns the first row, and the one behind the last; 0, 0 for a conveyor that the table does not have.
     """
-    found = {}
+    places = {}
     for k, row in enumerate(conveyors):
-        first, _ = found.get(row.tobytes(), (k, k))
-        found[row.tobytes()] = first, k + 1
-    return np.array([found.get(row.tobytes(), (0, 0)) for row in wanted], dtype=np.int64).reshape(-1, 2)
+        first, _ = places.get(row.tobytes(), (k, k))
+        places[row.tobytes()] = first, k + 1
+    return np.array([places.get(row.tobytes(), (0, 0)) for row in wanted], dtype=np.int64).reshape(-1, 2)
 
 
 class AttractingOrbits(NamedTuple):

@@ -38,10 +38,10 @@ def find_chaotic_sets(
     of several conveyors side by side. On each conveyor, no new trajectory begins after `most` cycles in all.
     """
     candidates = [list(trajectories.states[trajectories.outcomes == NOT_CONVERGED]) for trajectories in sampled]
-    found, spent = [NO_ATTRACTORS.chaotic] * len(conveyors), np.zeros(len(conveyors), dtype=np.int64)
+    chaotic_sets, spent = [NO_ATTRACTORS.chaotic] * len(conveyors), np.zeros(len(conveyors), dtype=np.int64)
 
     def search(rows: list[int], states: np.ndarray, length: int, strobes: np.ndarray | None = None) -> Trajectories:
-        attractors = concatenate([NO_ATTRACTORS, *(NO_ATTRACTORS._replace(chaotic=found[k]) for k in rows)])
+        attractors = concatenate([NO_ATTRACTORS, *(NO_ATTRACTORS._replace(chaotic=chaotic_sets[k]) for k in rows)])
         motions = sampling.follow(conveyors[rows], states, length, tolerance, attractors, strobes)
         spent[rows] += motions.followed
         return motions
@@ -60,12 +60,12 @@ def find_chaotic_sets(
             strobes = np.empty((len(rows), cycles, 2)) if record else None
             motions = search(rows, states, cycles, strobes)
             for k in rows[(motions.outcomes == PERIODIC) & (followed + motions.followed > LATE * cycles)]:
-                found[k], candidates[k] = NO_ATTRACTORS.chaotic, []
+                chaotic_sets[k], candidates[k] = NO_ATTRACTORS.chaotic, []
             goes_on = motions.outcomes == NOT_CONVERGED
             rows, states, followed = rows[goes_on], motions.states[goes_on], cycles
         spent[rows] += sum(lyapunov.LOOKS)
         stretches = lyapunov.signs(conveyors[rows], states, tolerance=tolerance) > 0
         for k, visited in zip(rows[stretches], strobes[goes_on][stretches], strict=True):
-            if len(found[k].low) < MOST:
-                found[k] = append_row(found[k], conveyors[k], *cover_by_boxes(visited))
-    return found
+            if len(chaotic_sets[k].low) < MOST:
+                chaotic_sets[k] = append_row(chaotic_sets[k], conveyors[k], *cover_by_boxes(visited))
+    return chaotic_sets

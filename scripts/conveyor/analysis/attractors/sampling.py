@@ -58,7 +58,8 @@ def follow(
 def sample_conveyors(conveyors: np.ndarray, cycles: int, tolerance: float) -> list[Trajectories]:
     """The trajectories of each of n conveyors, shape (n, 16), from its sampled initial conditions, for some cycles."""
     states = np.concatenate([sampled_initial_conditions(row) for row in conveyors])
-    found = follow(np.repeat(conveyors, SAMPLES, axis=0), states, cycles, tolerance)
+    trajectories = follow(np.repeat(conveyors, SAMPLES, axis=0), states, cycles, tolerance)
     return [
-        Trajectories(*(column[begin : begin + SAMPLES] for column in found)) for begin in range(0, len(states), SAMPLES)
+        Trajectories(*(column[begin : begin + SAMPLES] for column in trajectories))
+        for begin in range(0, len(states), SAMPLES)
     ]

@@ -41,7 +41,7 @@ def find_attractors(
     """
     conveyors, _ = distinct_rows(rows_and_shape(parameters)[0])
     most = min(SEARCHES * cycles, math.inf if most is None else most)
-    found = [NO_ATTRACTORS] * len(conveyors)
+    attractors = [NO_ATTRACTORS] * len(conveyors)
 
     def work(begin, end):
         some = conveyors[begin:end]
@@ -51,7 +51,7 @@ def find_attractors(
             known = NO_ATTRACTORS.orbits
             if orbits:
                 known = find_attracting_orbits(row, of_row, sets, cycles, tolerance, most=most)
-            found[k] = AttractorTable(known, sets)
+            attractors[k] = AttractorTable(known, sets)
 
     for_each_chunk(work, len(conveyors), threads=threads, chunk=TOGETHER, progress=progress)
-    return concatenate([NO_ATTRACTORS, *found])
+    return concatenate([NO_ATTRACTORS, *attractors])

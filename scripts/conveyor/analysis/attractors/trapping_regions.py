@@ -146,15 +146,15 @@ def refine_orbit(
     """
     unit, point = np.array(length_and_speed_units(parameters)), near
     for _ in range(REFINEMENTS):
-        found = linearise(parameters, tolerance, point, period)
-        if found is None or np.abs((point - near) / unit).max() > FAR:
+        linearisation = linearise(parameters, tolerance, point, period)
+        if linearisation is None or np.abs((point - near) / unit).max() > FAR:
             return None
-        correction = linear_algebra.solve(np.eye(2) - found[1], found[0] - point)
+        correction = linear_algebra.solve(np.eye(2) - linearisation[1], linearisation[0] - point)
         if correction is None:
             return None
         point = point + correction
-    found = linearise(parameters, tolerance, point, period)
-    return None if found is None else (point, found[1] * unit / unit[:, None])
+    linearisation = linearise(parameters, tolerance, point, period)
+    return None if linearisation is None else (point, linearisation[1] * unit / unit[:, None])
 
 
 def find_trapping_region(

@@ -95,10 +95,10 @@ def find_saddle(launch: InitialCondition, groups: Groups) -> tuple[int, np.ndarr
     turn : number of its periods after which the trajectory is nearest
     """
     state, _, _ = scaled_state(launch, groups)
-    found = derivatives(groups, state, SEARCHED, launch.psi0)
-    if found is None:
+    expansion = derivatives(groups, state, SEARCHED, launch.psi0)
+    if expansion is None:
         return None
-    strobes = np.vstack([state, found.states])
+    strobes = np.vstack([state, expansion.states])
     nearest = []
     for period in range(1, LONGEST + 1):
         moved = linear_algebra.length(strobes[period:] - strobes[:-period])
@@ -119,8 +119,8 @@ def find_fixed_point(groups: Groups, state: np.ndarray, period: int, psi0: float
     """The fixed point (x, y) of Pⁿ that Newton's iteration finds from a state, or None."""
 
     def system(here):
-        found = derivatives(groups, here, period, psi0)
-        return None if found is None else (found.image - here, found.first[:, :2] - np.eye(2))
+        expansion = derivatives(groups, here, period, psi0)
+        return None if expansion is None else (expansion.image - here, expansion.first[:, :2] - np.eye(2))
 
     return newton(system, state, converged=CONVERGED, iterations=ITERATIONS, largest=FARTHEST)
 
@@ -166,13 +166,13 @@ def _linearised(launch, groups, period, saddle, images, *, exponent=False):
     groups_moved = at_saddle.first.shape[1] - 3
     for k in range(count - 1):
         rows, here, there = slice(2 * k + 2, 2 * k + 4), slice(2 * k, 2 * k + 2), slice(2 * k + 2, 2 * k + 4)
-        found = derivatives(groups, images[k], period, launch.psi0, exponent=exponent)
-        if found is None:
+        expansion = derivatives(groups, images[k], period, launch.psi0, exponent=exponent)
+        if expansion is None:
             return None
-        residual[rows] = images[k + 1] - found.image
-        jacobian[rows, here], jacobian[rows, there] = -found.first[:, :2], np.eye(2)
-        jacobian[rows, -1] = -found.first[:, 2]
-        others[rows, :groups_moved] = -found.first[:, 3:]
+        residual[rows] = images[k + 1] - expansion.image
+        jacobian[rows, here], jacobian[rows, there] = -expansion.first[:, :2], np.eye(2)
+        jacobian[rows, -1] = -expansion.first[:, 2]
+        others[rows, :groups_moved] = -expansion.first[:, 3:]
     residual[-1] = linear_algebra.dot(left, images[-1] - saddle)
     jacobian[-1, 2 * count - 2 : 2 * count] = left
     jacobian[-1, -1] = -linear_algebra.dot(left, along[:, 0])
@@ -184,10 +184,10 @@ def _shoot(launch, groups, unknown, period, saddle, images):
     """Newton's iteration on the images and the height or Γ; the saddle follows Γ."""
     column = -2 if unknown == HEIGHT else -1
     for _ in range(ITERATIONS):
-        found = _linearised(launch, groups, period, saddle, images)
-        if found is None:
+        linearised = _linearised(launch, groups, period, saddle, images)
+        if linearised is None:
             return "the motion is lost"
-        residual, jacobian, _, _ = found
+        residual, jacobian, _, _ = linearised
         wanted = np.column_stack([jacobian[:, :-2], jacobian[:, column]])
         step = linear_algebra.solve(wanted, -residual)
         if step is None or not np.abs(step).max() < FARTHEST:

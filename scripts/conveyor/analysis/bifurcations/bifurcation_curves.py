@@ -103,24 +103,24 @@ class CurveEquations:
     def system(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
         """The three functions and their derivatives by the unknowns, shape (3, 4)."""
         groups = self.groups(unknown)
-        found = system(self.kind, self.period, np.append(unknown[:2], groups.amplitude), groups)
-        if found is None:
+        evaluated = system(self.kind, self.period, np.append(unknown[:2], groups.amplitude), groups)
+        if evaluated is None:
             return None
         by_path = (
-            found[1][:, 3] * self.path.damping * groups.damping
-            + found[1][:, 4] * self.path.stiffness * groups.stiffness
+            evaluated[1][:, 3] * self.path.damping * groups.damping
+            + evaluated[1][:, 4] * self.path.stiffness * groups.stiffness
         )
-        jacobian = np.column_stack([found[1][:, :2], found[1][:, 2] * groups.amplitude, by_path])
+        jacobian = np.column_stack([evaluated[1][:, :2], evaluated[1][:, 2] * groups.amplitude, by_path])
         # The third function, alone, grows with the multipliers.
         scale = np.append(np.ones(2), max(1.0, linear_algebra.length(jacobian[2])))
-        return found[0] / scale, jacobian / scale[:, None]
+        return evaluated[0] / scale, jacobian / scale[:, None]
 
     def tangent(self, unknown: np.ndarray, previous: np.ndarray) -> np.ndarray | None:
         """Unit vector along the curve, at an acute angle to `previous`; None where the motion is lost."""
-        found = self.system(unknown)
-        if found is None or not np.isfinite(found[1]).all():
+        evaluated = self.system(unknown)
+        if evaluated is None or not np.isfinite(evaluated[1]).all():
             return None
-        return linear_algebra.null_vector(found[1], previous)
+        return linear_algebra.null_vector(evaluated[1], previous)
 
     def correct(self, guess: np.ndarray, direction: np.ndarray) -> np.ndarray | None:
         """The point of the curve in the plane through `guess` normal to `direction`, or None."""
@@ -128,8 +128,8 @@ class CurveEquations:
 
     def halving(self, unknown: np.ndarray) -> np.ndarray:
         """(x, y) half a period later minus (x, y); the difference passes zero where the orbit's period halves."""
-        found = derivatives(self.groups(unknown), unknown[:2], self.period)
-        return found.states[self.period // 2 - 1] - unknown[:2]
+        expansion = derivatives(self.groups(unknown), unknown[:2], self.period)
+        return expansion.states[self.period // 2 - 1] - unknown[:2]
 
 
 def eigenvectors(matrix: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarray]:
@@ -151,12 +151,12 @@ def normal_form(point: BifurcationPoint, along: np.ndarray) -> tuple[float, np.n
     coefficient, which is positive in the supercritical case: the doubled orbit is then stable if the single orbit was.
     """
     state = point.unknown[:2]
-    found = derivatives(point.groups, state, point.period)
-    matrix = found.first[:, :2]
+    expansion = derivatives(point.groups, state, point.period)
+    matrix = expansion.first[:, :2]
     right, left = eigenvectors(matrix, SIGNS[point.kind])
     if linear_algebra.dot(right, along) < 0.0:
         right, left = -right, -left
-    bent = twice(found.second, right, right)
+    bent = twice(expansion.second, right, right)
     if point.kind == "fold":
         return float(0.5 * linear_algebra.dot(left, bent)), right
     aside = [derivatives(point.groups, state + part * SIDESTEP * right, point.period) for part in (1.0, -1.0)]
@@ -164,7 +164,7 @@ def normal_form(point: BifurcationPoint, along: np.ndarray) -> tuple[float, np.n
         return float("nan"), right
     third = twice(aside[0].second - aside[1].second, right, right) / (2.0 * SIDESTEP)
     follow = linear_algebra.solve(np.eye(2) - matrix, bent)
-    return float(linear_algebra.dot(left, third / 6.0 + 0.5 * twice(found.second, follow, right))), right
+    return float(linear_algebra.dot(left, third / 6.0 + 0.5 * twice(expansion.second, follow, right))), right
 
 
 def follow_bifurcation_curve(
@@ -306,11 +306,11 @@ def _grazings(equations, begin, end, status):
 
     def functions(guess):
         groups = equations.groups(np.append(np.zeros(2), guess[1:]))
-        found = derivatives(groups, np.zeros(2), equations.period, guess[0])
-        if found is None:
+        expansion = derivatives(groups, np.zeros(2), equations.period, guess[0])
+        if expansion is None:
             return np.full(3, np.nan)
-        matrix, sign = found.first[:, :2], SIGNS[equations.kind]
-        return np.append(found.image, 1.0 - sign * np.trace(matrix) + linear_algebra.determinant(matrix))
+        matrix, sign = expansion.first[:, :2], SIGNS[equations.kind]
+        return np.append(expansion.image, 1.0 - sign * np.trace(matrix) + linear_algebra.determinant(matrix))
 
     for near in (end, begin):
         phase = touching_point(equations.groups(near), near[:2], equations.period)

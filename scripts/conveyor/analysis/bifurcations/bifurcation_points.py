@@ -63,8 +63,8 @@ def derivatives(
     """
     count = second_derivatives.QUANTITIES if exponent else second_derivatives.EXPONENT
     begin = velocity_for_y(groups, np.array(state, dtype=np.float64))
-    found = second_derivatives.cycles(packed(groups, psi0), TOLERANCE, begin, period, count)
-    status, first, second, states, impacts = found
+    cycles = second_derivatives.cycles(packed(groups, psi0), TOLERANCE, begin, period, count)
+    status, first, second, states, impacts = cycles
     if status != OK:
         return None
     states[:, 1] += groups.damping * np.maximum(states[:, 0], 0.0)
@@ -104,20 +104,20 @@ def system(
     if kind == GRAZING:
         return touch_system(period, unknown, groups, exponent=exponent)
     here = groups._replace(amplitude=float(unknown[2]))
-    found = derivatives(here, unknown[:2], period, exponent=exponent)
-    if found is None:
+    expansion = derivatives(here, unknown[:2], period, exponent=exponent)
+    if expansion is None:
         return None
-    matrix = found.first[:, :2]
-    trace = found.second[0, 0] + found.second[1, 1]
+    matrix = expansion.first[:, :2]
+    trace = expansion.second[0, 0] + expansion.second[1, 1]
     determinant = (
-        found.second[0, 0] * matrix[1, 1]
-        + found.second[1, 1] * matrix[0, 0]
-        - found.second[0, 1] * matrix[1, 0]
-        - found.second[1, 0] * matrix[0, 1]
+        expansion.second[0, 0] * matrix[1, 1]
+        + expansion.second[1, 1] * matrix[0, 0]
+        - expansion.second[0, 1] * matrix[1, 0]
+        - expansion.second[1, 0] * matrix[0, 1]
     )
     test = 1.0 - SIGNS[kind] * np.trace(matrix) + linear_algebra.determinant(matrix)
-    jacobian = np.vstack([found.first - np.eye(2, found.first.shape[1]), determinant - SIGNS[kind] * trace])
-    return np.append(found.image - unknown[:2], test), jacobian
+    jacobian = np.vstack([expansion.first - np.eye(2, expansion.first.shape[1]), determinant - SIGNS[kind] * trace])
+    return np.append(expansion.image - unknown[:2], test), jacobian
 
 
 def touch_system(
@@ -126,15 +126,15 @@ def touch_system(
     """The state n cycles after a part touches the plate at relative rest, and its derivatives by ψ, Γ, D, K (and p)."""
     psi, amplitude = (float(value) for value in unknown)
     here = groups._replace(amplitude=amplitude)
-    found = derivatives(here, np.zeros(2), period, psi, exponent=exponent)
-    if found is None:
+    expansion = derivatives(here, np.zeros(2), period, psi, exponent=exponent)
+    if expansion is None:
         return None
     # A change of ψ shifts the end of the motion, and its beginning.
     press = 1.0 + amplitude * math.cos(psi)
-    x, y = found.image
+    x, y = expansion.image
     end = np.array([y - groups.damping * max(x, 0.0), press - groups.stiffness * max(x, 0.0) ** groups.exponent])
-    by_phase = end - found.first[:, 1] * press
-    return found.image, np.column_stack([by_phase, found.first[:, 2:]])
+    by_phase = end - expansion.first[:, 1] * press
+    return expansion.image, np.column_stack([by_phase, expansion.first[:, 2:]])
 
 
 def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> BifurcationPoint | None:
@@ -149,8 +149,8 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
     """
 
     def by_unknowns(here):
-        found = system(kind, period, here, groups)
-        return None if found is None else (found[0], found[1][:, : len(here)])
+        evaluated = system(kind, period, here, groups)
+        return None if evaluated is None else (evaluated[0], evaluated[1][:, : len(here)])
 
     limits = {"largest": FARTHEST, "stagnant": STAGNANT, "often": OFTEN}
     here = newton(by_unknowns, unknown, converged=CONVERGED, iterations=ITERATIONS, **limits)
@@ -162,9 +162,9 @@ def differentiate_unknowns(point: BifurcationPoint) -> np.ndarray | None:
 
     The last row is that of Γ. None where the system is singular (a codimension-two point) or cannot be evaluated.
     """
-    found = system(point.kind, point.period, point.unknown, point.groups, exponent=True)
+    evaluated = system(point.kind, point.period, point.unknown, point.groups, exponent=True)
     count = len(point.unknown)
-    return None if found is None else linear_algebra.solve(found[1][:, :count], -found[1][:, count:])
+    return None if evaluated is None else linear_algebra.solve(evaluated[1][:, :count], -evaluated[1][:, count:])
 
 
 def touching_point(groups: Groups, state: np.ndarray, period: int) -> np.ndarray | None:

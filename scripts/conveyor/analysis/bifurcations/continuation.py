@@ -104,8 +104,8 @@ def is_orbit(parameters: np.ndarray, orbit: Orbit) -> bool:
     """Whether an Orbit is one of `parameters`, a row of a table; its amplitude is ignored."""
     returns = ReturnMap(parameters, orbit.period)
     given = returns.scaled(orbit.acceleration, orbit.state)
-    found = returns.newton(given)
-    return found is not None and bool(linear_algebra.length(found - given) < SAME_ORBIT)
+    solved = returns.newton(given)
+    return solved is not None and bool(linear_algebra.length(solved - given) < SAME_ORBIT)
 
 
 def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) -> list[Bifurcation]:
@@ -118,20 +118,20 @@ def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) ->
         unknown = returns.correct(begin + part * (end - begin), direction)
         return None if unknown is None else returns.describe(unknown)
 
-    found = []
+    bifurcations = []
     for kind, test, sign in (("fold", fold_test, 1.0), ("period_doubling", doubling_test, -1.0)):
         if test(before) * test(after) < 0.0 and (part := _zero(at, test)) is not None:
             orbit = at(part)
             if abs(test(orbit)) > JUMP * abs(test(after) - test(before)):
                 continue  # the multipliers jump at a grazing
             multiplier = min(orbit.multipliers, key=lambda value, sign=sign: abs(value - sign))
-            found.append((part, Bifurcation(kind, orbit, multiplier.real)))
+            bifurcations.append((part, Bifurcation(kind, orbit, multiplier.real)))
     if before.impacts != after.impacts:
         part = _zero(at, lambda orbit: 0.5 - (orbit.impacts != before.impacts))
         if part is not None:
             orbit = at(part)
-            found.append((part, Bifurcation("grazing", orbit, orbit.multipliers[0].real)))
-    return [bifurcation for _, bifurcation in sorted(found, key=lambda item: item[0])]
+            bifurcations.append((part, Bifurcation("grazing", orbit, orbit.multipliers[0].real)))
+    return [bifurcation for _, bifurcation in sorted(bifurcations, key=lambda item: item[0])]
 
 
 def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -> float | None:
@@ -161,8 +161,8 @@ def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbi
     matrix = single.residual(unknown)[1] + np.eye(2)
     nearest = min(linear_algebra.eigenvalues(matrix), key=lambda value: abs(value + 1.0))
     along = np.append(linear_algebra.eigenvector(matrix, nearest.real), 0.0)
-    found = double.correct(unknown + DOUBLED * along, along)
-    return None if found is None else double.describe(found)
+    corrected = double.correct(unknown + DOUBLED * along, along)
+    return None if corrected is None else double.describe(corrected)
 
 
 def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:

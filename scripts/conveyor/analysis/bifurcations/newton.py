@@ -37,10 +37,10 @@ def newton(
     """
     here, size, stalls = np.array(guess, dtype=np.float64), math.inf, 0
     for _ in range(iterations):
-        found = system(here)
-        if found is None:
+        evaluated = system(here)
+        if evaluated is None:
             return None
-        value, slope = found
+        value, slope = evaluated
         if direction is not None:
             value, slope = np.append(value, dot(direction, here - guess)), np.vstack([slope, direction])
         step = solve(slope, -value)

@@ -109,8 +109,8 @@ class ReturnMap:
         """The fixed point that Newton's iteration at constant â finds from a guess, or None."""
         # Steps of a long unstable orbit end in round-off, which it amplifies.
         limits = {"converged": CONVERGED, "iterations": 30, "largest": 1e3, "stagnant": STAGNANT}
-        found = newton(lambda state: self.residual(np.append(state, guess[2])), guess[:2], **limits)
-        return None if found is None else np.append(found, guess[2])
+        solved = newton(lambda state: self.residual(np.append(state, guess[2])), guess[:2], **limits)
+        return None if solved is None else np.append(solved, guess[2])
 
     def correct(self, guess: np.ndarray, direction: np.ndarray) -> np.ndarray | None:
         """The fixed point in the plane through `guess` normal to `direction`, a unit vector, or None."""
@@ -177,9 +177,9 @@ def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, p
 
 def orbit_near(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
     """`find_orbit` without checks of its arguments; None, too, for arguments that are not finite."""
-    found = ReturnMap(parameters, period)
-    unknown = found.newton(found.scaled(acceleration, state))
-    return None if unknown is None else found.describe(unknown)
+    returns = ReturnMap(parameters, period)
+    unknown = returns.newton(returns.scaled(acceleration, state))
+    return None if unknown is None else returns.describe(unknown)
 
 
 def settled_orbit(

@@ -81,18 +81,18 @@ def random_walk(displacements: np.ndarray, period: float) -> RandomWalk:
         raise ValueError(f"displacements must have the shape (n, k) with n >= 2, got {displacements.shape}")
     of_run = displacements.mean(axis=1) / period
     mean = displacements.mean()
-    found = RandomWalk(mean / period, standard_error(of_run), np.nan, np.nan, 0, CORRELATED)
+    walk = RandomWalk(mean / period, standard_error(of_run), np.nan, np.nan, 0, CORRELATED)
     fluctuations = displacements - mean
     # Displacements are differences of positions, which rounding leaves with an error.
     if np.abs(fluctuations).max() <= 1e-9 * np.abs(displacements).max():
-        return found._replace(status=NO_FLUCTUATIONS)
+        return walk._replace(status=NO_FLUCTUATIONS)
     window = uncorrelated_window(fluctuations)
     if window == 0:
-        return found
+        return walk
     window *= LONGER
     variance = (sums_over(fluctuations, window) ** 2).mean(axis=1)
     diffusion = variance / (2.0 * window * period)
-    return found._replace(
+    return walk._replace(
         diffusion=float(diffusion.mean()), diffusion_stderr=standard_error(diffusion), window=window, status=OK
     )
 

@@ -1,4 +1,4 @@
-"""Attractors that initial conditions lead to, with the settings of an entry of the config."""
+"""Labels of initial conditions, with the settings of an entry of the config."""
 
 import math
 from typing import NamedTuple
@@ -176,7 +176,7 @@ def find_limits(
     return Limits(conveyors, search_limits(sample, group, attractors, mean, settings, threads=threads))
 
 
-def follow(
+def label_within_limits(
     parameters: np.ndarray,
     attractors: AttractorTable,
     settings: dict,
@@ -185,7 +185,7 @@ def follow(
     threads: int = 1,
     progress: str | None = None,
 ) -> Columns:
-    """The attractors that initial conditions lead to. Those whose search a limit ends stay undecided."""
+    """The labels of initial conditions. An initial condition whose search ends at a limit stays undecided."""
     most = settings["settling"]
     options = {"attractors": attractors, "tolerance": search_tolerance(settings), "threads": threads}
     if limits is None:
@@ -218,7 +218,7 @@ def batches_by_conveyor(parameters: np.ndarray) -> list[np.ndarray | slice]:
     return np.split(order, np.flatnonzero(np.diff(batch)) + 1)
 
 
-def motions_of_starts(
+def label_starts(
     parameters: np.ndarray,
     settings: dict,
     *,
@@ -227,7 +227,7 @@ def motions_of_starts(
     threads: int = 1,
     progress: str | None = None,
 ) -> Columns:
-    """The attractors that initial conditions lead to. Attractors that many of them share are found first.
+    """The labels of initial conditions. Attractors that many initial conditions share are searched for first.
 
     parameters : table, shape (n,)
     settings : `settling`, `mean_settling`, and `tolerance` if it is not the default
@@ -247,14 +247,14 @@ def motions_of_starts(
         batch = parameters[rows]
         known = of_all or shared_attractors(batch, table.counts, settings, **options, progress=label)
         limits = find_limits(batch, table, known, settings, **options) if slow else None
-        parts.append(follow(batch, known, settings, limits=limits, **options, progress=label))
+        parts.append(label_within_limits(batch, known, settings, limits=limits, **options, progress=label))
     return join(parts, batches)
 
 
-def motions(parameters: np.ndarray, settings: dict, **options) -> Columns:
-    """The attractors that `parameters`, shape (n,), lead to, with the settings of their entry of the config.
+def label_entry(parameters: np.ndarray, settings: dict, **options) -> Columns:
+    """The labels of `parameters`, shape (n,), the rows of an entry of the config, with its settings.
 
-    options : `threads` and `progress`, as in motions_of_starts
+    options : `threads` and `progress`, as in `label_starts`
     """
     axes, model = settings["axes"], settings.get("model", {})
     varied = {name: axis for name, axis in axes.items() if name in INITIAL_CONDITION}
@@ -265,9 +265,9 @@ def motions(parameters: np.ndarray, settings: dict, **options) -> Columns:
         spread_rows(varied, model, starts, SAMPLED_STARTS),
     )
     table = Table(*sampled, (conveyors, starts))
-    return motions_of_starts(parameters, settings, starts=starts, table=table, **options)
+    return label_starts(parameters, settings, starts=starts, table=table, **options)
 
 
-def motions_after(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Columns:
-    """The attractors that runs of `parameters` lead to; the converged solution continues from their ends (m, m/s)."""
-    return motions(continued(parameters, z_end, vz_end, settings["duration"]), settings, **options)
+def label_ends(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Columns:
+    """The labels of runs of `parameters`; the converged solution continues them from their ends (m, m/s)."""
+    return label_entry(continued(parameters, z_end, vz_end, settings["duration"]), settings, **options)
