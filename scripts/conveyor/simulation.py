@@ -17,7 +17,7 @@ METHODS = ("event", *fixed_step.METHODS)
 MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Run:
     """The result of `simulate`. It stores the final state; `sample` and `events` repeat the simulation.
 
@@ -159,23 +159,39 @@ def simulate(
     if method == "event":
         times = np.array([[(1.0 - LAST) * duration, duration]])
         (samples,), (results,) = trajectory.integrate(parameters[None], times, tolerance=tolerance, reuse=reuse)
-        code, event_count, impacts, contact_time, max_gap, work, repeats, *peaks = results.tolist()
+        code, event_count, impacts, contact_time, max_gap, work, repeats, impact_speed, peak_force = results.tolist()
         (x_last, *_), (x_end, vx_end, z_end, vz_end, *_) = samples.tolist()
         status = trajectory.STATUS[int(code)]
         contact_fraction = contact_time / duration
     else:
-        found = fixed_step.run(parameters, duration, step, method)
-        x_end, vx_end, z_end, vz_end = found.x, found.vx, found.z, found.vz
-        x_last = x_end - found.mean_velocity * LAST * duration
-        status, impacts, max_gap = found.status, found.impacts, found.max_gap
-        contact_fraction, work, repeats, event_count = found.contact_fraction, found.evaluations, 0, 0
-        peaks = found.impact_speed, found.peak_force
+        summary = fixed_step.run(parameters, duration, step, method)
+        x_end, vx_end, z_end, vz_end = summary.x, summary.vx, summary.z, summary.vz
+        x_last = x_end - summary.mean_velocity * LAST * duration
+        status, impacts, max_gap = summary.status, summary.impacts, summary.max_gap
+        contact_fraction, work, repeats, event_count = summary.contact_fraction, summary.evaluations, 0, 0
+        impact_speed, peak_force = summary.impact_speed, summary.peak_force
     if status != trajectory.STATUS[trajectory.OK]:
         max_gap = contact_fraction = math.nan
     return Run(
-        *(conveyor, start, duration, method, tolerance, step, reuse, status),
-        *map(float, (x_last, z_end, vz_end, x_end, vx_end)),
-        int(impacts),
-        *map(float, (max_gap, contact_fraction, *peaks)),
-        *map(int, (work, repeats, event_count)),
+        conveyor=conveyor,
+        start=start,
+        duration=duration,
+        method=method,
+        tolerance=tolerance,
+        step=step,
+        reuse=reuse,
+        status=status,
+        x_last=float(x_last),
+        z_end=float(z_end),
+        vz_end=float(vz_end),
+        x_end=float(x_end),
+        vx_end=float(vx_end),
+        impacts=int(impacts),
+        max_gap=float(max_gap),
+        contact_fraction=float(contact_fraction),
+        impact_speed=float(impact_speed),
+        peak_force=float(peak_force),
+        work=int(work),
+        repeats=int(repeats),
+        event_count=int(event_count),
     )

@@ -1,8 +1,8 @@
 """Candidates for enclosures of the Taylor coefficients of a contact step, in compiled double-double arithmetic.
 
 Nothing is proved here: `taylor` proves the enclosures with one evaluation in balls. Without candidates it would need an
-evaluation for each order, and a step would take 2.1 to 3.4 times as long. A number is a midpoint and a radius; the
-midpoint is the unevaluated sum of two floats, which has about 30 digits (Dekker 1971).
+evaluation for each order, and all proofs together would take 3.1 times as long. A number is a midpoint and a radius;
+the midpoint is the unevaluated sum of two floats, which has about 30 digits (Dekker 1971).
 """
 
 import numpy as np

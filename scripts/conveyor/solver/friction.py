@@ -63,7 +63,7 @@ def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
 
 @compiled_into_callers
 def slip_end(c, step, segment, slip, leave):
-    """Where the slip velocity of a segment first reaches zero in the rest of a contact step: an s, or infinity.
+    """The s in the rest of a contact step at which the slip velocity of a segment reaches zero; infinity for none.
 
     `slip` is the slip velocity at the segment's beginning (m/s), `leave` as in polynomial.first_root.
     """
@@ -84,11 +84,11 @@ def slip_end(c, step, segment, slip, leave):
 
 @compiled_into_callers
 def stick_end(c, step, segment):
-    """Where a part in stick begins to slip in the rest of a contact step, and whether it slips to the end of the step.
+    """The s in the rest of a contact step at which |ẍ_s + g sin α| exceeds μ_s F_c/m; whether it does so to the end.
 
-    The first result is the s at which |ẍ_s + g sin α| begins to exceed μ_s F_c/m. It is infinite if the part sticks to
-    the end of the step, or if nothing moves it along the track. While |ẍ_s + g sin α| > μ_s F_c/m the slip that begins
-    cannot end. On a level track the margin in a direction stays positive if cos(θ + ε) has its sign at both ends.
+    The s is infinite if the part sticks to the end of the step, or if nothing moves it along the track. While
+    |ẍ_s + g sin α| > μ_s F_c/m the slip that begins cannot end. On a level track the margin in a direction stays
+    positive if cos(θ + ε) has its sign at both ends.
     """
     series, at, length = step.series, step.at, step.piece.length
     end, lasting = math.inf, False
