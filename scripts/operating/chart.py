@@ -10,6 +10,7 @@ from operating.advice import ENOUGH, EVEN, FAST, neighbours
 from operating.regimes import (
     CHAOS,
     ONE,
+    SAME_VELOCITY,
     SEVERAL,
     SLIDES_AWAY,
     UNDECIDED,
@@ -42,10 +43,11 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
     velocity was known.
     """
     amplitudes = np.sort(shares.acceleration.unique())
-    regime = summarize_amplitudes(shares, shares.attrs["same_velocity"]).regime.to_numpy()
+    regime = summarize_amplitudes(shares).regime.to_numpy()
     between = np.diff(amplitudes)[regime[1:] != regime[:-1]]
     return {
         "search": shares.attrs,
+        "same_velocity": SAME_VELOCITY,
         "unseen_share": RULE_OF_THREE / shares.attrs["starts"],
         "amplitudes": amplitudes,
         "unsettled": shares[shares.status.isin((UNDECIDED, UNSETTLED))].acceleration.nunique(),
@@ -72,7 +74,7 @@ def summarize_regimes(regimes: pd.DataFrame, merged: pd.DataFrame) -> dict[str, 
 
 def amplitudes_inside(shares: pd.DataFrame, intervals: list[dict], regime: str) -> pd.DataFrame:
     """The amplitudes with a regime in some intervals of merged regimes, as `summarize_amplitudes` describes them."""
-    amplitudes = summarize_amplitudes(shares, shares.attrs["same_velocity"])
+    amplitudes = summarize_amplitudes(shares)
     inside = [amplitudes.acceleration.between(row["begin"], row["end"]) for row in intervals]
     return amplitudes[(amplitudes.regime == regime) & np.any(inside, axis=0)]
 

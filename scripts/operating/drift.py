@@ -16,6 +16,7 @@ from operating.transit import PROBABILITIES, follow, quantiles, spread_stderr
 from operating.transit import relative_spread as spread_of
 from pipeline import fields, grid
 
+FORGOTTEN = 200  # excitation cycles before the first sample, after which the transient has decayed
 RUN_FAILED = "a run failed"
 OF_EACH_REGIME = 2  # amplitudes in the table of track lengths
 TABLES = {
@@ -60,7 +61,7 @@ def spaced(amplitudes: np.ndarray, count: int) -> np.ndarray:
 
 def positions(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> np.ndarray:
     """Positions x (m) of parts, shape (n, cycles + 1), once per excitation cycle; NaN where a run failed."""
-    cycles = settings["forgotten"] + np.arange(settings["cycles"] + 1)
+    cycles = FORGOTTEN + np.arange(settings["cycles"] + 1)
     times = cycles / rows["frequency"][:, None]
     options = {"tolerance": settings["tolerance"], "threads": threads, "chunk": 8, "progress": progress}
     return sample_runs(rows, times, columns=["x"], **options).x

@@ -20,6 +20,11 @@ from operating.transit import follow, summarize
 from pipeline import fields, pareto
 from pipeline.fields import AXES
 
+DRAWN = (
+    8  # random designs of the first generation, in units of the population, because few of them meet all constraints
+)
+# Relative growth of the hypervolume in the last quarter of the generations up to which a search has settled.
+SETTLED = 0.02
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
 # Errors of the amplitude, as parts of the margin, at which the search follows a design, and at which it is checked.
 SEARCH_ERRORS, CHECK_ERRORS = np.array([-1.0, 1.0]), np.array([-1.0, 0.0, 1.0])
@@ -151,7 +156,7 @@ def search(settings: dict, seed: int, count: Callable[[], object]) -> pareto.Fro
         count()
         return outcomes
 
-    drawn = np.random.default_rng(seed).uniform(*bounds, (settings["drawn"], len(SEARCHED)))
+    drawn = np.random.default_rng(seed).uniform(*bounds, (DRAWN * settings["population"], len(SEARCHED)))
     front = pareto.search(evaluate_points, drawn, bounds, reference_point(settings), settings, seed, constraints=5)
     return front._replace(points=designs_of(front.points, settings["bounds"]))
 

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from operating.chart import MANY_LATE, RULE_OF_THREE, spreads_of
+from operating.drive import DRAWN, SETTLED
 from operating.regimes import is_frictionless, is_steep
 from operating.transit import ENDS
 from pipeline.templates import render
@@ -24,6 +25,8 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
     last, growth = generations[generations.generation == generations.generation.max()], last_growth(generations)
     return {
         "search": front.attrs,
+        "drawn": DRAWN * front.attrs["population"],
+        "settled": SETTLED,
         "spread": spreads_of(front.attrs),
         "calibrated": front.attrs["spread"].get("calibrated", False),
         "ends": ENDS,

@@ -15,6 +15,8 @@ ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
     "chaos only",
     "unknown",
 )
+# Relative difference up to which two velocities count as equal, in units of the larger one.
+SAME_VELOCITY = 0.02
 # The status of a motion on a track that is too steep, see `track`.
 SLIDES_AWAY = "slides away"
 # The status of a motion whose state, or whose mean velocity, is not known after the cycles that the config allows.
@@ -67,12 +69,12 @@ def steepness(rows: np.ndarray) -> np.ndarray:
     return (slope > rows["friction"]).astype(np.int64) + (slope > rows["static_friction"])
 
 
-def same(velocity: np.ndarray, other: float, share: float) -> np.ndarray:
+def same(velocity: np.ndarray, other: float) -> np.ndarray:
     """Whether velocities count as equal to another: they differ by at most a share of the larger one."""
-    return np.abs(velocity - other) <= share * np.maximum(np.abs(velocity), abs(other))
+    return np.abs(velocity - other) <= SAME_VELOCITY * np.maximum(np.abs(velocity), abs(other))
 
 
-def regime_of(state: np.ndarray, velocity: np.ndarray, share: float) -> str:
+def regime_of(state: np.ndarray, velocity: np.ndarray) -> str:
     """The regime of one amplitude from states and velocities of its motions, shape (k,)."""
     if np.isnan(velocity).any() or (state == "undecided").any():
         return UNKNOWN
@@ -80,10 +82,10 @@ def regime_of(state: np.ndarray, velocity: np.ndarray, share: float) -> str:
         return CHAOS
     if (state == "chaos").any():
         return BESIDE
-    return ONE if same(velocity, velocity.max(), share).all() else SEVERAL
+    return ONE if same(velocity, velocity.max()).all() else SEVERAL
 
 
-def summarize_amplitudes(shares: pd.DataFrame, share: float) -> pd.DataFrame:
+def summarize_amplitudes(shares: pd.DataFrame) -> pd.DataFrame:
     """At each amplitude of a table of shares, ascending: its regime, the velocity of the fastest motion (`best`), the
     share of initial conditions that reach it (`best_share`) with its standard error (`stderr`), and the mean velocity
     over all initial conditions (`mean`). `mean` is NaN if any velocity is not known, the others if none is known.
@@ -91,11 +93,11 @@ def summarize_amplitudes(shares: pd.DataFrame, share: float) -> pd.DataFrame:
     rows = []
     for acceleration, motions in shares.groupby("acceleration"):
         velocity, best = motions.mean_velocity.to_numpy(), motions.mean_velocity.max()
-        reach_it = np.nan if np.isnan(best) else float(motions.share[same(velocity, best, share)].sum())
+        reach_it = np.nan if np.isnan(best) else float(motions.share[same(velocity, best)].sum())
         rows.append(
             {
                 "acceleration": acceleration,
-                "regime": regime_of(motions.state.to_numpy(), velocity, share),
+                "regime": regime_of(motions.state.to_numpy(), velocity),
                 "best": best,
                 "best_share": reach_it,
                 # Rounding may make the sum of shares slightly larger than 1.

@@ -35,7 +35,6 @@ class Operating(TypedDict):
     seed: Seed
     followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
     cycles: whole("cycles over which a mean velocity is taken", 10, 10**6, "excitation cycles")
-    same_velocity: number("relative difference up to which velocities are equal", "of the larger velocity", gt=0, lt=1)
     tolerance: Tolerance
 
 
@@ -66,7 +65,6 @@ class Transit(TypedDict):
 class Drift(TypedDict):
     amplitudes: whole("largest number of amplitudes", 1, 10**4)
     runs: whole("initial conditions per amplitude", 4, 10**5)
-    forgotten: whole("excitation cycles before the first sample", 0, 10**6, "excitation cycles")
     cycles: whole("excitation cycles of each run", 64, 10**6, "excitation cycles")
     lengths: many(
         number("length of a track", "transit.length", gt=0, le=1e3), "lengths of tracks", check=check_ascending
@@ -117,10 +115,8 @@ class Drive(TypedDict):
     impact_speed: number("largest impact speed that a design may have", "m/s", gt=0, le=100)
     back: number("largest share of the parts that may move back", ge=0, lt=1)
     search: Annotated[DriveSearch, Field(description="parts of each design of the search")]
-    drawn: whole("random designs of the first generation", 4, 10**6)
     population: whole("population of NSGA-II", 4, 10**4)
     generations: whole("generations of NSGA-II", 4, 10**5)
-    settled: number("growth of the hypervolume in the last quarter that counts as settled", "1", gt=0, le=1)
     seeds: many(Seed, "seeds of the random numbers")
     checked: whole("designs of the front that are confirmed by the transit of all parts", 1, 1000)
     recommended: whole("recommended settings", 1, 100)

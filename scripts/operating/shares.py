@@ -230,7 +230,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
     table = shares_at(amplitudes, settings, threads=threads, progress=progress)
     while True:
-        summary = regimes.summarize_amplitudes(table, settings["same_velocity"])
+        summary = regimes.summarize_amplitudes(table)
         places, found = summary.acceleration.to_numpy(), summary.regime.to_numpy()
         wide = (found[1:] != found[:-1]) & (np.diff(places) > settings["resolution"])
         if not wide.any() or len(places) >= len(amplitudes) + MOST_ADDED:

@@ -215,7 +215,7 @@ def test_a_search_that_finds_nothing_says_so(monkeypatch):
         return found.assign(displacement=drive.displacement(x))
 
     monkeypatch.setattr(drive, "evaluate", evaluate)
-    found = drive.make({**SETTINGS, "drawn": 8, "population": 4, "generations": 4})
+    found = drive.make({**SETTINGS, "population": 4, "generations": 4})
     front, generations = found["drive_front"], found["drive_generations"]
     assert len(front) == 0
     assert set(front) == {column.name for column in drive.TABLES["drive_front"]}

@@ -379,7 +379,7 @@ def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame]) -> str:
 
 
 def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
-    return regimes.intervals_of(regimes.summarize_amplitudes(table, SETTINGS["same_velocity"]), table)
+    return regimes.intervals_of(regimes.summarize_amplitudes(table), table)
 
 
 def test_no_amplitude_is_recommended_where_parts_move_back(refined):
@@ -658,7 +658,6 @@ def test_an_interval_with_one_velocity_has_the_velocities_of_its_own_motions():
     """Not those of a narrow interval of chaos that counts as a part of it."""
     rows = [(20.0, "first", 0.01), (30.0, "first", 0.02), (30.2, "chaos", 0.06), (30.4, "first", 0.021)]
     table = pd.DataFrame(rows, columns=["acceleration", "state", "mean_velocity"]).assign(share=1.0, starts=10)
-    table.attrs = {"same_velocity": 0.02}
     found = chart.describe_one_velocity(table, {"begin": 20.0, "end": 30.4})
     assert (found["states"], found["velocity"]) == (["first"], [0.01, 0.021])
 

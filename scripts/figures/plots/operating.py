@@ -41,7 +41,7 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     handles = draw_regimes(strip, shares, regimes)
     amplitudes = np.sort(shares.acceleration.unique())
 
-    best = summarize_amplitudes(shares, shares.attrs["same_velocity"])
+    best = summarize_amplitudes(shares)
     slowest = shares.groupby("acceleration").mean_velocity.min()
     if best.best.isna().all():
         style.say(share, "no motion has a mean velocity")
