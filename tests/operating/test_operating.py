@@ -704,7 +704,7 @@ def test_regimes_and_their_words(refined):
     ],
 )
 def test_regime_of_an_amplitude(states, velocities, regime):
-    assert regimes.regime_of(np.array(states), np.array(velocities), 0.02) == regime
+    assert regimes.regime_of(np.array(states), np.array(velocities)) == regime
 
 
 def test_a_table_without_known_amplitudes_gives_no_advice(refined):
