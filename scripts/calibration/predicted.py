@@ -13,8 +13,8 @@ import numpy as np
 from scipy.stats import qmc
 
 from calibration.measurements import INITIAL, Measurement
-from conveyor import INITIAL_CONDITION, sample_runs, set_parameters
-from conveyor.elementary import cos, exp, log, sin
+from conveyor import INITIAL_CONDITION, plate_heights, sample_runs, set_parameters
+from conveyor.elementary import cos, exp, log
 from pipeline import grid
 
 TOLERANCE = 1e-5  # per contact step: errors of velocities stay far below those of a measurement
@@ -113,8 +113,7 @@ def velocities(
         rows["static_friction"] = np.maximum(rows["friction"], settings["static_friction"])
         rows["psi0"] = np.where(np.isnan(rows["psi0"]), phase, rows["psi0"])
         rows["vz0"] = np.where(np.isnan(rows["vz0"]), speed, rows["vz0"])
-        stroke = rows["acceleration"] * sin(rows["angle"]) / (2.0 * math.pi * rows["frequency"]) ** 2
-        height -= stroke * cos(rows["psi0"])  # Eq. 4
+        height += plate_heights(rows)
         rows["z0"] = np.where(np.isnan(rows["z0"]), height, rows["z0"])
         return mean_velocities(rows, times, threads, progress and f"{progress}{label}").reshape(-1, count)
 

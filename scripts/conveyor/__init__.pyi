@@ -8,7 +8,10 @@ from .parameters import (
     DEFAULT_TOLERANCE,
     DESCRIPTIONS,
     FIXED_STEP_METHODS,
+    HARMONIC,
+    HARMONICS,
     LAST,
+    MOST_HARMONICS,
     PARAMETERS,
     RANGES,
     TANGENTIAL,
@@ -16,8 +19,15 @@ from .parameters import (
     UNITS,
     normal_gravity,
 )
-from .solver.model import Conveyor, Start, check_parameter, conveyor_motion
-from .packing import INITIAL_CONDITION, conveyor_and_start, parameter_table, replace_parameters, set_parameters
+from .solver.model import Conveyor, Harmonic, Start, check_parameter, conveyor_motion
+from .packing import (
+    INITIAL_CONDITION,
+    conveyor_and_start,
+    parameter_table,
+    plate_heights,
+    replace_parameters,
+    set_parameters,
+)
 
 # One run, many runs, and their results
 from .simulation import Run, simulate

@@ -10,10 +10,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arguments import HIGH, LOW, MAY_BE_NAN, check_numbers, check_parameters, check_type
-from .parameters import PARAMETERS, TENSION_MODES, UNITS
-from .solver.model import Conveyor, Start, check_static_friction, pack, unpack
+from .parameters import HARMONIC, PARAMETERS, TENSION_MODES, UNITS
+from .solver import plate
+from .solver.model import (
+    ACCELERATION,
+    ANGLE,
+    FREQUENCY,
+    PSI0,
+    Conveyor,
+    Start,
+    check_static_friction,
+    pack,
+    unpack,
+)
 
-TABLE = np.dtype([(name, np.float64) for name in PARAMETERS])
 # The initial condition; ψ0 only shifts the phase at which a motion is observed.
 INITIAL_CONDITION = ("psi0", "z0", "vz0")
 AT_REST = Start()
@@ -31,7 +41,8 @@ def parameter_table(conveyor: Conveyor, start: Start = AT_REST, **values: ArrayL
     Returns
     -------
     structured array with a float64 field for each name of `PARAMETERS`, in the shape of the `values`; tension is a
-    position in `TENSION_MODES`, and z0 is NaN for a part that starts on the plate
+    position in `TENSION_MODES`, and z0 is NaN for a part that starts on the plate. A plate with harmonics has one more
+    field for them
 
     Raises
     ------
@@ -106,40 +117,60 @@ def conveyor_and_start(parameters: np.ndarray) -> tuple[Conveyor, Start]:
 
 
 def as_rows(parameters: np.ndarray) -> np.ndarray:
-    """The numbers of a table of the shape s, float64, shape (*s, 16), in the order of PARAMETERS, without a copy.
+    """The numbers of a table of the shape s, float64, shape (*s, 16 + 5 h), for h harmonics, without a copy.
 
-    Rows of float64 are returned as they are.
+    The first ones are in the order of PARAMETERS. Rows of float64 are returned as they are.
     """
-    if getattr(parameters, "dtype", None) != TABLE:
+    names = getattr(getattr(parameters, "dtype", None), "names", None)
+    if names is None or names[: len(PARAMETERS)] != PARAMETERS:
         return parameters
     parameters = np.asarray(parameters)
-    return np.ascontiguousarray(parameters).view(np.float64).reshape(*parameters.shape, len(PARAMETERS))
+    return np.ascontiguousarray(parameters).view(np.float64).reshape(*parameters.shape, -1)
 
 
 def as_table(rows: np.ndarray) -> np.ndarray:
-    """Rows of float64, shape (*s, 16), as a table of the shape s, without a copy."""
-    return np.ascontiguousarray(rows, dtype=np.float64).view(TABLE)[..., 0]
+    """Rows of float64, shape (*s, 16 + 5 h), as a table of the shape s, without a copy."""
+    rows = np.ascontiguousarray(rows, dtype=np.float64)
+    names = [(name, np.float64) for name in PARAMETERS]
+    if rows.shape[-1] > len(PARAMETERS):
+        names.append(("harmonics", np.float64, (rows.shape[-1] - len(PARAMETERS),)))
+    return rows.view(np.dtype(names))[..., 0]
 
 
 def rows_and_shape(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
-    """The numbers of a table, float64, shape (n, 16), and the shape of the table; ValueError for anything else."""
+    """The numbers of a table, float64, shape (n, 16 + 5 h), and its shape; ValueError for anything else."""
     rows = check_numbers("parameters", as_rows(parameters))
-    if rows.ndim == 0 or rows.shape[-1] != len(PARAMETERS):
+    waves = rows.shape[-1] - len(PARAMETERS) if rows.ndim > 0 else -1
+    if waves < 0 or waves % len(HARMONIC) != 0:
         raise ValueError(f"parameters must be a table from parameter_table, got the shape {rows.shape}")
-    return np.ascontiguousarray(rows, dtype=np.float64).reshape(-1, len(PARAMETERS)), rows.shape[:-1]
+    return np.ascontiguousarray(rows, dtype=np.float64).reshape(-1, rows.shape[-1]), rows.shape[:-1]
 
 
 def check_rows(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
-    """The numbers of a table, float64, shape (n, 16), and the shape of the table; ValueError unless they are in
-    range.
+    """The numbers of a table, float64, shape (n, 16 + 5 h), and its shape; ValueError unless they are in range.
 
     z0 may be NaN, for a part that starts on the plate; z0 and vz0 may be NaN for a run that continues a failed one.
     """
     rows, shape = rows_and_shape(parameters)
-    outside = ~((rows >= LOW) & (rows <= HIGH)) & ~(MAY_BE_NAN & np.isnan(rows))
+    numbers = rows[:, : len(PARAMETERS)]
+    outside = ~((numbers >= LOW) & (numbers <= HIGH)) & ~(MAY_BE_NAN & np.isnan(numbers))
     if outside.any():
         row, column = np.argwhere(outside)[0]
         name = PARAMETERS[column]
         interval = f"[{LOW[column]:g}, {HIGH[column]:g}] {UNITS[name]}".rstrip()
         raise ValueError(f"parameters[{row}]: {name} = {rows[row, column]!s} is outside {interval}")
     return rows, shape
+
+
+def plate_heights(parameters: np.ndarray) -> np.ndarray:
+    """Heights of the plates (m) at t = 0 (Eq. 4) for a table of the shape (n,), shape (n,).
+
+    Examples
+    --------
+    >>> table = parameter_table(Conveyor(), psi0=[0.0, 0.5 * np.pi])
+    >>> (plate_heights(table) * 1e6).round(3).tolist()  # µm
+    [-84.264, -0.0]
+    """
+    rows = as_rows(parameters)
+    stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * np.pi * rows[:, FREQUENCY]) ** 2
+    return plate.heights(rows[:, len(PARAMETERS) :], stroke, rows[:, PSI0])

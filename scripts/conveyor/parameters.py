@@ -54,6 +54,18 @@ UNITS_AND_RANGES = {
 UNITS = {name: unit for name, (unit, _) in UNITS_AND_RANGES.items()}
 RANGES = {name: interval for name, (_, interval) in UNITS_AND_RANGES.items() if interval is not None}
 
+# A harmonic of the plate's motion: description, unit and admissible values of its numbers. The shares belong to the
+# amplitudes of the fundamental's acceleration in the same direction.
+HARMONIC = {
+    "order": ("multiple k of the excitation frequency", "1", (2, 100)),
+    "along": ("acceleration amplitude along the track, as a share of â cos φ", "1", (0.0, 10.0)),
+    "along_phase": ("phase of the acceleration cos(kθ + along_phase)", "rad", (-4.0 * math.pi, 4.0 * math.pi)),
+    "normal": ("acceleration amplitude normal to the track, as a share of â sin φ", "1", (0.0, 10.0)),
+    "normal_phase": ("phase of the acceleration cos(kθ + normal_phase)", "rad", (-4.0 * math.pi, 4.0 * math.pi)),
+}
+HARMONICS = "harmonics of the plate's motion, which grow with its acceleration amplitude"
+MOST_HARMONICS = 12
+
 # Parameters that leave the motion normal to the track as it is.
 TANGENTIAL = ("friction", "phase_shift", "static_friction")
 

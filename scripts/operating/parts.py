@@ -9,7 +9,8 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.elementary import cos, exp, log, sin
+from conveyor import plate_heights
+from conveyor.elementary import exp, log
 from pipeline import grid
 from pipeline.rule_log import JobError
 
@@ -28,9 +29,8 @@ def starts_of_box(settings: dict) -> np.ndarray:
 def set_starts(rows: np.ndarray, starts: np.ndarray) -> None:
     """Write initial conditions, shape (n, 3), into a table of parameters, shape (n,)."""
     height, velocity, phase = starts.T
-    stroke = rows["acceleration"] * sin(rows["angle"]) / (2.0 * math.pi * rows["frequency"]) ** 2
     rows["psi0"], rows["vz0"] = phase, velocity
-    rows["z0"] = height - stroke * cos(phase)  # Eq. 4
+    rows["z0"] = height + plate_heights(rows)
 
 
 def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:

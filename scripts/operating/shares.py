@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor import LAST, Columns, continued, sample_runs, sweep
+from conveyor import LAST, Columns, continued, sample_runs, sweep, throw_number
 from conveyor.elementary import cos, sin
 from operating import regimes
 from operating.parts import parameters_of, starts_of_box
@@ -195,11 +195,13 @@ def motion_shares(
     share = count / starts
     acceleration = parameters["acceleration"][first]
     normal_gravity = parameters["gravity"][first] * cos(parameters["inclination"][first])
+    harmonics = settings["model"].get("harmonics", ())
+    largest_fall = throw_number(1.0, angle=0.5 * math.pi, gravity=1.0, harmonics=harmonics)
     return pd.DataFrame(
         {
             "conveyor": first // starts,
             "acceleration": acceleration,
-            "vertical": acceleration * sin(parameters["angle"][first]) / normal_gravity,
+            "vertical": acceleration * sin(parameters["angle"][first]) / normal_gravity * largest_fall,
             "state": labels.state[first],
             "period": labels.period[first],
             "longest_flight": labels.longest_flight[first],

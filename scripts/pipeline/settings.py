@@ -6,7 +6,17 @@ from typing import Annotated, Any, Literal, NotRequired
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, WrapValidator
 from typing_extensions import TypedDict
 
-from ..conveyor import DESCRIPTIONS, FIXED_STEP_METHODS, PARAMETERS, RANGES, TENSION_MODES, UNITS
+from ..conveyor import (
+    DESCRIPTIONS,
+    FIXED_STEP_METHODS,
+    HARMONIC,
+    HARMONICS,
+    MOST_HARMONICS,
+    PARAMETERS,
+    RANGES,
+    TENSION_MODES,
+    UNITS,
+)
 
 LONGEST_NAME = 64  # characters: names become file names
 LONGEST_LIST = 10_000  # values; a longer axis is written as {start, stop, num}
@@ -63,6 +73,13 @@ def check_distinct(values: list) -> list:
             raise ValueError(f"has {value!r} twice; give each value once")
         seen.add(value)
     return values
+
+
+def check_orders(harmonics: list) -> list:
+    orders = [harmonic["order"] for harmonic in harmonics]
+    if len(set(orders)) < len(orders):
+        raise ValueError(f"has the orders {orders}; give each order once")
+    return harmonics
 
 
 def check_ascending(values: list) -> list:
@@ -162,8 +179,22 @@ MODEL_TYPES = {name: parameter(name) for name in RANGES} | {
     ),
 }
 MODEL_TYPES = {name: MODEL_TYPES[name] for name in PARAMETERS}
+HARMONIC_TYPES = {
+    name: number(description, unit, ge=low, le=high) for name, (description, unit, (low, high)) in HARMONIC.items()
+}
+HARMONIC_TYPES |= {"order": whole(HARMONIC["order"][0], *HARMONIC["order"][2])}
+OPTIONAL = {
+    "static_friction": NotRequired[MODEL_TYPES["static_friction"]],
+    "harmonics": NotRequired[
+        Annotated[
+            list[mapping("a harmonic of the plate's acceleration, with the phase θ of the excitation", HARMONIC_TYPES)],
+            Field(max_length=MOST_HARMONICS, description=HARMONICS),
+            AfterValidator(check_orders),
+        ]
+    ],
+}
 # Keys of the section `model`; without its own value static_friction is equal to friction.
-MODEL_KEYS = MODEL_TYPES | {"static_friction": NotRequired[MODEL_TYPES["static_friction"]]}
+MODEL_KEYS = MODEL_TYPES | OPTIONAL
 AXIS_TYPES = {name: axis(item, DESCRIPTIONS[name]) for name, item in MODEL_TYPES.items()} | {
     "tension": many(MODEL_TYPES["tension"], DESCRIPTIONS["tension"]),
     "z0": axis(MODEL_TYPES["z0"], DESCRIPTIONS["z0"], end=parameter("z0")),
@@ -174,7 +205,8 @@ Axes = Annotated[
     Field(description="axes of the table: lists of values or {start, stop, num}; the first one varies slowest"),
 ]
 Model = Annotated[
-    TypedDict("Model", MODEL_TYPES, total=False), Field(description="parameters that differ from the section `model`")
+    TypedDict("Model", MODEL_TYPES | OPTIONAL, total=False),
+    Field(description="parameters that differ from the section `model`"),
 ]
 
 # Types of several keys.

@@ -21,7 +21,7 @@ from .tables import references
 # Parameters of the conveyor and the part; the other parameters of the model are settings of a run.
 CONVEYOR = (
     *("angle", "frequency", "stiffness", "damping", "friction", "mass", "exponent", "gravity"),
-    *("inclination", "phase_shift", "static_friction"),
+    *("inclination", "phase_shift", "static_friction", "harmonics"),
 )
 # Settings of figures that mark a number of the paper.
 MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_states")
@@ -131,7 +131,8 @@ def scale_config(paper: dict, overlay: dict) -> dict:
 
     ConfigError if there is no scale for amplitudes. The overlay must have passed the type checks.
     """
-    own = paper["model"] | {name: float(value) for name, value in overlay["model"].items() if name in CONVEYOR}
+    changed = {name: value for name, value in overlay["model"].items() if name in CONVEYOR}
+    own = paper["model"] | {name: value if name == "harmonics" else float(value) for name, value in changed.items()}
     if math.sin(own["angle"]) == 0.0:
         raise ConfigError(["model.angle = 0.0 means that no amplitude can lift a part; give a larger angle"])
     ratios = scale_ratios(paper["model"], own)

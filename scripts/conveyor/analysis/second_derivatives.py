@@ -14,14 +14,15 @@ import math
 
 import numpy as np
 
-from ..solver import contact, contact_law, polynomial
+from ..solver import contact, contact_law, plate, polynomial, workspace
 from ..solver.contact import FORCE_SIGN, SEPARATION
-from ..solver.contact_law import FIRST, row_of
+from ..solver.contact_law import row_of
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from ..solver.model import TENSION_CLIP
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF
 from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST, arrive, cut_step, is_finite, motion_at, next_piece
+from ..solver.workspace import FIRST
 from .stroboscopic_map import delta_and_v, tangent_length
 
 # What is perturbed; the first two are the state.
@@ -38,7 +39,7 @@ LOG_EDGE = 1e-5
 @compiled
 def log_series(c, series, out):
     """Fill `out`, shape (SIZE,), with the Taylor coefficients of 2 log w of a contact step, 0 where w is left out."""
-    w = row_of(series, FIRST + contact_law.W)
+    w = row_of(series, FIRST + workspace.W)
     out[:] = 0.0
     if w[0] > branch_edge(c):
         out[0] = math.log(w[0])
@@ -76,8 +77,8 @@ def expand(c, series, first, second, free, count):
     count : number of quantities that are wanted, from the first one on
     """
     series, first, second = no_refcount((series, first, second))
-    w, square = row_of(series, FIRST + contact_law.W), row_of(series, FIRST + contact_law.SQUARE)
-    spring, cosine_w = row_of(series, FIRST + contact_law.SPRING), row_of(series, FIRST + contact_law.COSINE_W)
+    w, square = row_of(series, FIRST + workspace.W), row_of(series, FIRST + workspace.SQUARE)
+    spring, lift_w = row_of(series, FIRST + workspace.SPRING), row_of(series, FIRST + workspace.LIFT_W)
     damping = 0.0 if free else c.damping
     stiffness = 0.0 if free else c.stiffness
     # w^(2p-1) and w^(2p-3), the first and second derivatives of the spring times w.
@@ -88,9 +89,9 @@ def expand(c, series, first, second, free, count):
         slope = w
     else:
         contact_law.expand_power(c, series, FIRST, 2.0 * c.exponent - 1.0)
-        slope = row_of(series, contact_law.SCRATCH).copy()
+        slope = row_of(series, workspace.SCRATCH).copy()
         contact_law.expand_power(c, series, FIRST, 2.0 * c.exponent - 3.0)
-        bend = row_of(series, contact_law.SCRATCH).copy()
+        bend = row_of(series, workspace.SCRATCH).copy()
     # log w² itself, and times the spring's slope: with 1/p times that slope the derivative of p w^(2p-1) by p, over p.
     log, slope_by_exponent = np.zeros(SIZE), np.zeros(SIZE)
     by_exponent = count > EXPONENT
@@ -105,7 +106,7 @@ def expand(c, series, first, second, free, count):
             drift = product(w, y, n) - damping * product(w, delta, n)
             push = -c.exponent * stiffness * product(slope, delta, n)
             if j == AMPLITUDE:
-                push += cosine_w[n]
+                push += lift_w[n]
             elif j == DAMPING and not free:
                 drift -= product(w, square, n)
             elif j == STIFFNESS and not free:
@@ -187,9 +188,11 @@ def fly(c, first, second, motion, piece):
         first[j, 0, 0] += tau * first[j, 1, 0]
         for i in range(2):
             second[i, j, 0, 0] += tau * second[i, j, 1, 0]
-    # ∫ cos θ and its integral over the piece.
-    first[AMPLITUDE, 0, 0] += (motion.cosine - piece.cosine) / c.omega**2 - motion.sine * tau / c.omega
-    first[AMPLITUDE, 1, 0] += (piece.sine - motion.sine) / c.omega
+    # ∫ z̈_s/a_z dt and its integral over the piece.
+    begin, speed = plate.shapes(c, motion.sine, motion.cosine)
+    end, last_speed = plate.shapes(c, piece.sine, piece.cosine)
+    first[AMPLITUDE, 0, 0] += (begin - end) / c.omega**2 - speed * tau / c.omega
+    first[AMPLITUDE, 1, 0] += (last_speed - speed) / c.omega
 
 
 @compiled_into_callers
@@ -204,10 +207,10 @@ def press(c, series, first, second, motion, piece, count):
         longest = min(longest, PART_OF_RADIUS * motion.w / abs(0.5 * motion.v))
     else:
         longest = min(longest, piece.length)
-        while polynomial.value(series, FIRST + contact_law.W, longest) > 4.0 * edge:
+        while polynomial.value(series, FIRST + workspace.W, longest) > 4.0 * edge:
             longest *= 0.5
     if longest < piece.length:
-        duration = polynomial.value(series, FIRST + contact_law.T, longest)
+        duration = polynomial.value(series, FIRST + workspace.T, longest)
         piece = cut_step(series, FIRST, longest, duration, contact.NOTHING)
     for j in range(count):
         for of in range(2):
@@ -259,7 +262,7 @@ def cycle(parameters, tolerance, state, first, second, count):
             delta = piece.w * piece.w
             if not motion.pulled:
                 switch(c, first, second, delta, True)
-            cross_force(c, first, second, piece.w, piece.v, c.gravity + c.a_z * piece.cosine)
+            cross_force(c, first, second, piece.w, piece.v, c.gravity + plate.lift(c, piece.sine, piece.cosine))
             if motion.pulled:
                 switch(c, first, second, delta, False)
         motion = following

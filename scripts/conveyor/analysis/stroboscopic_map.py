@@ -5,7 +5,7 @@ pair determines the motion, since contact is δ > 0 and the sign of the contact 
 
 Perturbations belong to (δ, Y) with Y = v + (d_c/m) max(δ, 0), for which the equations of motion
 
-    δ̇ = Y - (d_c/m) max(δ, 0),   Ẏ = g + a_z cos θ - (k_c/m) max(δ, 0)^p
+    δ̇ = Y - (d_c/m) max(δ, 0),   Ẏ = g + z̈_s - (k_c/m) max(δ, 0)^p
 
 are continuous across impact and separation, so that the linearised flow needs no jump there. Its determinant over a
 cycle is exp(-(d_c/m) T_contact), where T_contact is the time with a contact force. While the force would pull, `clip`
@@ -16,13 +16,14 @@ import math
 
 import numpy as np
 
-from ..solver import contact, contact_law, polynomial, vertical
-from ..solver.contact_law import FIRST, row_of
+from ..solver import contact, contact_law, plate, polynomial, vertical, workspace
+from ..solver.contact_law import row_of
 from ..solver.jit import compiled, compiled_inline, copy
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
 from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF
 from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST
+from ..solver.workspace import FIRST
 
 # Longest period of a motion that is looked for, in excitation cycles.
 MAX_PERIOD = 64
@@ -57,11 +58,11 @@ def expand_tangents(c, series, expansions, free):
     expansions : float64, shape (2, 3, SIZE), for each perturbation the rows ETA, ZETA, and RATE, ζ - (d_c/m) η
     free : whether the contact force is left out
     """
-    w, stiff = row_of(series, FIRST + contact_law.W), row_of(series, contact_law.SCRATCH)
+    w, stiff = row_of(series, FIRST + workspace.W), row_of(series, workspace.SCRATCH)
     damping = 0.0 if free else c.damping
     stiffness = 0.0 if free else c.exponent * c.stiffness
     if c.exponent == 1.5:
-        stiff = row_of(series, FIRST + contact_law.SQUARE)
+        stiff = row_of(series, FIRST + workspace.SQUARE)
     elif c.exponent == 1.0:
         stiff = w
     else:
@@ -123,7 +124,7 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
     expand_tangents(c, series, expansions, motion.pulled and c.tension == TENSION_CLIP)
     longest = tangent_length(c, expansions)
     if longest < piece.length:
-        duration = polynomial.value(series, FIRST + contact_law.T, longest)
+        duration = polynomial.value(series, FIRST + workspace.T, longest)
         piece = vertical.cut_step(series, FIRST, longest, duration, contact.NOTHING)
     for i in range(tangent.shape[0]):
         tangent[i, 0] = polynomial.value(expansions[i, ETA], 0, piece.length)
@@ -284,6 +285,6 @@ def pack_states(parameters: np.ndarray, states: np.ndarray, tolerance: float) ->
     packed = np.array(parameters, dtype=np.float64)
     for row, (delta, v) in zip(packed, states, strict=True):
         c = contact.constants(row, tolerance)
-        row[Z0] = -delta - c.a_z / c.omega**2 * np.cos(row[PSI0])
-        row[VZ0] = c.a_z / c.omega * np.sin(row[PSI0]) - v
+        z, vz = plate.height_and_rise(c, np.sin(row[PSI0]), np.cos(row[PSI0]))
+        row[Z0], row[VZ0] = z - delta, vz - v
     return packed

@@ -34,9 +34,13 @@ the textbook formula v = g n² cot φ/(2 f).
 """
 
 import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
+
+from ..solver import plate
+from ..solver.model import check_harmonics, pack_harmonics
 
 LONGEST_THROW = math.sqrt(1.0 + math.pi**2)  # Γ at which the flight fills the cycle
 SHORT = 5e-3  # rad, half the turn N below which its power series is free of cancellation
@@ -44,10 +48,20 @@ HALVINGS = 60  # of [0, 1], beyond the precision of n
 
 
 def throw_number(
-    acceleration: ArrayLike, *, angle: float, gravity: float, inclination: float = 0.0, **others: float | str
+    acceleration: ArrayLike,
+    *,
+    angle: float,
+    gravity: float,
+    inclination: float = 0.0,
+    harmonics: Sequence[Mapping[str, float]] = (),
+    **others: float | str,
 ) -> np.ndarray:
-    """The throw number Γ = a_z/(g cos α) at amplitudes (m/s²) of any shape; `others` do not matter."""
-    return np.asarray(acceleration) * math.sin(angle) / (gravity * math.cos(inclination))
+    """The throw number Γ at amplitudes (m/s²) of any shape; `others` do not matter.
+
+    It is the plate's largest downward acceleration over g cos α, which is a_z/(g cos α) without harmonics.
+    """
+    share = plate.largest_fall(pack_harmonics(check_harmonics(harmonics)))
+    return np.asarray(acceleration) * math.sin(angle) / (gravity * math.cos(inclination)) * share
 
 
 def throw_number_of_flight(cycles: ArrayLike) -> np.ndarray:

@@ -21,8 +21,8 @@ import numpy as np
 from ..arguments import LONGEST, check_array, check_choice, check_time
 from ..packing import as_rows
 from ..parameters import FIXED_STEP_METHODS as METHODS
-from ..parameters import LAST
-from ..solver import model
+from ..parameters import LAST, PARAMETERS
+from ..solver import model, plate
 from ..solver.contact_lanes import LANES, new_memory, place
 from ..solver.horizontal import IMPACT, SAMPLES, SEPARATED, name_events
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers
@@ -31,6 +31,8 @@ from ..solver.trajectory import STATUS as STATUS_NAMES
 from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth, simple_power
 from .sine import sine_and_cosine
 
+FIRST_WAVE = len(PARAMETERS)  # place of the first harmonic in packed parameters
+BYTES = 8  # of a number
 EULER, SEMI_IMPLICIT_EULER, RK4 = range(len(METHODS))
 # Evaluations of the forces in a step of each method.
 EVALUATIONS = (1, 1, 4)
@@ -53,7 +55,8 @@ GAP, PUSH, RUB, IN_CONTACT, LAST_SLIP, POWER, SINE, COSINE = range(12, 20)
 OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX, PLATE_AX = range(20, 26)
 STIFFNESS, DAMPING, EXPONENT, FRICTION, STATIC_FRICTION, GRAVITY, DOWNHILL = range(26, 33)
 LEAST_PUSH, LEAST_RUB, COS_SHIFT, SIN_SHIFT = range(33, 37)
-ROWS = 37
+# The numbers of the plate's harmonics, as many as in the packed parameters.
+WAVES = 37
 
 
 class Kind(NamedTuple):
@@ -65,6 +68,7 @@ class Kind(NamedTuple):
     tilted: bool  # whether there are inclinations or phase shifts
     sticks: bool  # whether there are static frictions larger than the friction
     has_powers: bool  # whether there are exponents other than 1 and 1.5
+    harmonics: int  # number of harmonics of each plate
 
 
 @compiled_inline
@@ -100,13 +104,28 @@ def turn_plates(memory, i, step, sines, cosines):
 
 
 @compiled_inline
+def plate_shapes(kind, memory, lane, sine, cosine):
+    """z_s, ż_s, ẋ_s and ẍ_s, divided by their amplitudes (z_s by the negative one), at a phase."""
+    along, pull = sine, cosine
+    if kind.tilted:
+        ahead, straight = memory[place(SIN_SHIFT, lane)], memory[place(COS_SHIFT, lane)]
+        along, pull = sine * straight + cosine * ahead, cosine * straight - sine * ahead
+    if kind.harmonics == 0:
+        return cosine, sine, along, pull
+    waves = memory.ctypes.data + BYTES * np.int64(place(WAVES, lane))
+    added = plate.sums(waves, LANES, kind.harmonics, sine, cosine)
+    return cosine + added.z, sine + added.vz, along + added.vx, pull + added.ax
+
+
+@compiled_inline
 def forces(kind, memory, lane, vx, z, vz, sine, cosine, is_raised):
     """Gap (m), F_c/m, F_r/m (m/s², Eqs. 7, 11 and 12) and slip velocity (m/s) of a state.
 
     sine, cosine : of the plate's phase
     is_raised : whether POWER holds δ^p
     """
-    gap = z + memory[place(PLATE_Z, lane)] * cosine
+    height, rise, along, _ = plate_shapes(kind, memory, lane, sine, cosine)
+    gap = z + memory[place(PLATE_Z, lane)] * height
     exponent = memory[place(EXPONENT, lane)]
     if is_raised:
         power = memory[place(POWER, lane)]
@@ -114,26 +133,23 @@ def forces(kind, memory, lane, vx, z, vz, sine, cosine, is_raised):
         power = power_of_depth(-gap, exponent) if kind.has_powers else simple_power(-gap, exponent)
     push = contact_acceleration(
         gap,
-        memory[place(PLATE_VZ, lane)] * sine - vz,
+        memory[place(PLATE_VZ, lane)] * rise - vz,
         power,
         memory[place(STIFFNESS, lane)],
         memory[place(DAMPING, lane)],
         memory[place(LEAST_PUSH, lane)],
     )
-    along = sine
-    if kind.tilted:
-        along = sine * memory[place(COS_SHIFT, lane)] + cosine * memory[place(SIN_SHIFT, lane)]
     slip = memory[place(PLATE_VX, lane)] * along - vx
     rub = friction_acceleration(push, slip, memory[place(FRICTION, lane)], memory[place(LEAST_RUB, lane)])
     return gap, push, rub, slip
 
 
 @compiled_into_callers
-def stick(memory, lane, gap, push, rub, slip, sine, cosine):
+def stick(kind, memory, lane, gap, push, rub, slip, sine, cosine):
     """F_r/m of a part that sticks if its slip has vanished, or `rub`; a part that sticks gets the plate's velocity."""
     vx = memory[place(VX, lane)]
-    turned = cosine * memory[place(COS_SHIFT, lane)] - sine * memory[place(SIN_SHIFT, lane)]
-    pull = memory[place(PLATE_AX, lane)] * turned + memory[place(DOWNHILL, lane)]
+    _, _, _, share = plate_shapes(kind, memory, lane, sine, cosine)
+    pull = memory[place(PLATE_AX, lane)] * share + memory[place(DOWNHILL, lane)]
     static_friction = memory[place(STATIC_FRICTION, lane)]
     vanished = (static_friction > memory[place(FRICTION, lane)]) & (memory[place(LAST_SLIP, lane)] * slip <= 0.0)
     sticks = (gap <= 0.0) & vanished & (abs(pull) <= static_friction * push)
@@ -148,7 +164,7 @@ def find_forces(kind, memory, lane, sine, cosine):
     vx, z, vz = memory[place(VX, lane)], memory[place(Z, lane)], memory[place(VZ, lane)]
     gap, push, rub, slip = forces(kind, memory, lane, vx, z, vz, sine, cosine, kind.has_powers)
     if kind.sticks:
-        rub = stick(memory, lane, gap, push, rub, slip, sine, cosine)
+        rub = stick(kind, memory, lane, gap, push, rub, slip, sine, cosine)
     memory[place(GAP, lane)], memory[place(PUSH, lane)], memory[place(RUB, lane)] = gap, push, rub
     return (gap <= 0.0) != (memory[place(IN_CONTACT, lane)] > 0.0)
 
@@ -160,7 +176,9 @@ def find_forces_of_all(kind, lanes, memory):
         # In a loop of its own, because powers take one number at a time.
         for k in range(lanes):
             lane = np.uint64(k)
-            gap = memory[place(Z, lane)] + memory[place(PLATE_Z, lane)] * memory[place(COSINE, lane)]
+            sine, cosine = memory[place(SINE, lane)], memory[place(COSINE, lane)]
+            height, _, _, _ = plate_shapes(kind, memory, lane, sine, cosine)
+            gap = memory[place(Z, lane)] + memory[place(PLATE_Z, lane)] * height
             memory[place(POWER, lane)] = power_of_depth(-gap, memory[place(EXPONENT, lane)])
     changed = False
     for k in range(lanes):
@@ -253,8 +271,9 @@ def take_steps(kind, lanes, memory, i, stop, step, sines, cosines):
 
 
 @compiled_inline
-def prepare(parameters, method, memory, lane):
+def prepare(kind, parameters, flat, memory, lane):
     """Set a lane of the memory, zero before, to the initial condition of a packed parameter vector."""
+    method = kind.method
     sine_angle, cosine_angle = sine_and_cosine_by(method, parameters[model.ANGLE])
     sine_track, cosine_track = sine_and_cosine_by(method, parameters[model.INCLINATION])
     ahead, straight = sine_and_cosine_by(method, parameters[model.PHASE_SHIFT])
@@ -275,11 +294,14 @@ def prepare(parameters, method, memory, lane):
     memory[SIN_SHIFT, lane], memory[COS_SHIFT, lane] = ahead, straight
     memory[LEAST_PUSH, lane] = least_push(parameters[model.TENSION])
     memory[LEAST_RUB, lane] = least_rub(parameters[model.TENSION])
-    memory[LAST_SLIP, lane] = memory[PLATE_VX, lane] * (sine * straight + cosine * ahead)
-    plate = -memory[PLATE_Z, lane] * cosine
-    memory[Z, lane] = plate if math.isnan(parameters[model.Z0]) else parameters[model.Z0]
+    for k in range(plate.NUMBERS * kind.harmonics):
+        memory[WAVES + k, lane] = parameters[FIRST_WAVE + k]
+    height, _, along, _ = plate_shapes(kind, flat, np.uint64(lane), sine, cosine)
+    memory[LAST_SLIP, lane] = memory[PLATE_VX, lane] * along
+    surface = -memory[PLATE_Z, lane] * height
+    memory[Z, lane] = surface if math.isnan(parameters[model.Z0]) else parameters[model.Z0]
     memory[VZ, lane] = parameters[model.VZ0]
-    memory[MAX_GAP, lane] = memory[Z, lane] - plate
+    memory[MAX_GAP, lane] = memory[Z, lane] - surface
     memory[IN_CONTACT, lane] = memory[MAX_GAP, lane] <= 0.0
 
 
@@ -325,7 +347,7 @@ def record_results(parameters, first, memory, running, results, step, evaluation
 
 
 @compiled_inline
-def record_events(method, first, memory, running, events, time):
+def record_events(kind, first, flat, memory, running, events, time):
     """Count the gaps that have opened or closed, and write the time (s) and kind of the first events."""
     for lane in range(len(running)):
         touching = memory[GAP, lane] <= 0.0
@@ -337,8 +359,9 @@ def record_events(method, first, memory, running, events, time):
             memory[EVENTS, lane] += 1.0
             memory[IMPACTS, lane] += touching
             if touching:
-                sine, _ = sine_and_cosine_by(method, memory[OMEGA, lane] * time + memory[PSI0, lane])
-                speed = memory[PLATE_VZ, lane] * sine - memory[VZ, lane]
+                sine, cosine = sine_and_cosine_by(kind.method, memory[OMEGA, lane] * time + memory[PSI0, lane])
+                _, rise, _, _ = plate_shapes(kind, flat, np.uint64(lane), sine, cosine)
+                speed = memory[PLATE_VZ, lane] * rise - memory[VZ, lane]
                 memory[IMPACT_SPEED, lane] = max(memory[IMPACT_SPEED, lane], speed)
             memory[IN_CONTACT, lane] = touching
 
@@ -365,7 +388,7 @@ def compiled_for(kind):
                 memory[Z, lane] = 1.0
                 running[lane] = first + lane < len(parameters)
                 if running[lane]:
-                    prepare(parameters[first + lane], method, memory, lane)
+                    prepare(kind, parameters[first + lane], flat, memory, lane)
                 memory[SINE, lane], memory[COSINE, lane] = sine_and_cosine_by(method, memory[PSI0, lane])
             find_forces_of_all(kind, lanes, flat)
             i = n_sampled = 0
@@ -380,7 +403,7 @@ def compiled_for(kind):
                         break
                     if kind.alike and method == EULER:
                         turn_plates(flat, i, step, sines, cosines)
-                record_events(method, first, memory, running, events, i * step)
+                record_events(kind, first, flat, memory, running, events, i * step)
                 stop = min(n_steps, i - i % CHECK + CHECK)
                 if n_sampled < len(sample_indices):
                     stop = min(stop, sample_indices[n_sampled])
@@ -399,6 +422,7 @@ def kind_of(method: int, parameters: np.ndarray) -> Kind:
         tilted=bool((parameters[:, [model.INCLINATION, model.PHASE_SHIFT]] != 0.0).any()),
         sticks=bool((parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any()),
         has_powers=bool((~np.isin(parameters[:, model.EXPONENT], (1.0, 1.5))).any()),
+        harmonics=(parameters.shape[1] - FIRST_WAVE) // plate.NUMBERS,
     )
 
 
@@ -459,7 +483,8 @@ def follow(parameters, step, n_steps, method, indices=(), n_events=0):
     samples, results = np.full((n, len(indices), len(SAMPLES)), math.nan), np.empty((n, RESULTS))
     events = np.full((n, n_events, 2), math.nan)
     integrate = compiled_for(kind_of(METHODS.index(method), parameters))
-    integrate(parameters, float(step), n_steps, indices, samples, events, results, new_memory(ROWS))
+    memory = new_memory(WAVES + parameters.shape[1] - FIRST_WAVE)
+    integrate(parameters, float(step), n_steps, indices, samples, events, results, memory)
     return results.tolist(), samples, events
 
 

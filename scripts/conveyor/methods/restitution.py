@@ -4,8 +4,9 @@ import numpy as np
 
 from ..arguments import LARGEST_COORDINATE, check_array
 from ..packing import as_rows
-from ..solver import contact, contact_law
+from ..solver import contact
 from ..solver.jit import compiled
+from ..solver.workspace import FIRST
 
 CONTACT_TOLERANCE = 1e-14  # of the contact steps that follow an impact
 MAX_CONTACT_STEPS = 10_000  # of one impact; an undamped one takes about ten
@@ -19,7 +20,9 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     The solver's contact steps follow the impact. The coefficient is 0 if the contact is so damped that it creeps back
     without a separation. ArithmeticError if the impact does not end within MAX_CONTACT_STEPS.
     """
-    alone = contact.constants(as_rows(parameters), CONTACT_TOLERANCE)._replace(gravity=0.0, a_z=0.0, scale_v=speed)
+    alone = contact.constants(as_rows(parameters), CONTACT_TOLERANCE)._replace(
+        gravity=0.0, a_z=0.0, scale_v=speed, harmonics=0
+    )
     share = 1.0 / (alone.exponent + 1.0)
     duration = 3.0 * (speed * speed / (2.0 * share * alone.stiffness)) ** share / speed
     if alone.damping * duration > OVERDAMPED:
@@ -27,8 +30,8 @@ def restitution_coefficient(parameters: np.ndarray, speed: float) -> float:
     series = contact.workspace()
     w, v, time, pulled = 0.0, speed, 0.0, False
     for _ in range(MAX_CONTACT_STEPS):
-        length = contact.begin_step(alone, series, contact_law.FIRST, w, v, 0.0, 1.0, pulled)
-        _, w, v, lapse, end = contact.end_step(alone, series, contact_law.FIRST, w, v, pulled, length)
+        length = contact.begin_step(alone, series, FIRST, w, v, 0.0, 1.0, pulled)
+        _, w, v, lapse, end = contact.end_step(alone, series, FIRST, w, v, pulled, length)
         if end == contact.SEPARATION:
             return -v / speed
         if end == contact.FORCE_SIGN:

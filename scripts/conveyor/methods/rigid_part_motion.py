@@ -147,7 +147,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
     impacts : float64, shape (m, 3), filled for the first m impacts, with the numbers of IMPACT_DTYPE
     """
     c = contact.constants(parameters, 0.0)
-    omega, gravity, a_z = c.omega, c.gravity, c.a_z
+    omega, gravity = c.omega, c.gravity
     period, psi0, end = 1.0 / parameters[model.FREQUENCY], parameters[model.PSI0], times[-1]
     motion = first_motion(c, parameters[model.Z0], parameters[model.VZ0], psi0)
     max_gap = motion.q
@@ -178,7 +178,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
             t += tau
         else:
             _, x, vx, sigma, z, vz, q, rate, skip = motion
-            flight = Flight(z, vz, theta, gravity, a_z, omega)
+            flight = Flight(z, vz, theta, c)
             if skip > 0.0:
                 q, rate = gap(flight, skip)
                 if q <= 0.0:
@@ -187,9 +187,7 @@ def follow(parameters, speeds, coefficients, times, samples, impacts):
                     motion = rest(x, vx, sigma)
                     t += skip
                     continue
-            ahead = Flight(
-                z + (vz - 0.5 * gravity * skip) * skip, vz - gravity * skip, theta + omega * skip, gravity, a_z, omega
-            )
+            ahead = Flight(z + (vz - 0.5 * gravity * skip) * skip, vz - gravity * skip, theta + omega * skip, c)
             tau, speed = next_impact(ahead, q, rate, left - skip)
             tau += skip
             if not tau <= math.inf:
@@ -219,6 +217,7 @@ class Summary(NamedTuple):
 
 def _follow(parameters, restitution, times, n_impacts=0):
     """Call `follow` with new arrays. Returns its result, the samples (NaN after an early end) and the impacts."""
+    model.refuse_harmonics(parameters, "the rigid part")
     speeds, coefficients = ([0.0], [restitution]) if np.isscalar(restitution) else restitution
     speeds = np.asarray(speeds, dtype=np.float64)
     coefficients = check_array("restitution", coefficients, 0.0, 1.0)

@@ -5,7 +5,7 @@ The normal force is N/m = g cos α + a_z cos θ at the phase θ. The constants `
 
 import math
 
-from ..solver import friction
+from ..solver import friction, plate
 from ..solver.horizontal import slide
 from ..solver.jit import compiled, compiled_inline
 
@@ -27,7 +27,7 @@ def plate_rise(c, theta):
 @compiled
 def plate_speed(c, theta):
     """ẋ_s (m/s) at the phase `theta` (rad)."""
-    return c.a_x / c.omega * friction.along(c, math.sin(theta), math.cos(theta))[0]
+    return c.a_x / c.omega * plate.ahead(c, math.sin(theta), math.cos(theta))[0]
 
 
 @compiled
@@ -133,8 +133,8 @@ def rest_motion(c, theta, x, vx, sigma, tau):
     sine = (math.sin(phase) - math.sin(theta)) / c.omega
     cosine = (math.cos(theta) - math.cos(phase)) / c.omega**2
     if sigma == 0.0:
-        _, begin = friction.along(c, math.sin(theta), math.cos(theta))
-        speed, end = friction.along(c, math.sin(phase), math.cos(phase))
+        _, begin = plate.ahead(c, math.sin(theta), math.cos(theta))
+        speed, end = plate.ahead(c, math.sin(phase), math.cos(phase))
         return x + c.a_x * ((begin - end) / c.omega**2), c.a_x / c.omega * speed
     fall = 0.5 * c.gravity * tau * tau
     lift = c.a_z * (cosine - math.sin(theta) / c.omega * tau)

@@ -10,10 +10,12 @@ from collections import namedtuple
 
 import numpy as np
 
-from . import model, polynomial
-from .contact_law import COSINE, FIRST, SCRATCH, SINE, SPRING, STEP, T, V, W, expand, expand_force, twice_elastic_energy
+from ..parameters import PARAMETERS
+from . import model, plate, polynomial
+from .contact_law import expand, expand_force, twice_elastic_energy
 from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SIZE
+from .workspace import COSINE, FIRST, SCRATCH, SINE, SPRING, STEP, T, V, W
 
 # Events that end a contact step before its full length.
 NOTHING, SEPARATION, FORCE_SIGN = range(3)
@@ -23,11 +25,12 @@ BEFORE_LAST = ORDER - 1
 
 # The constants of one conveyor in the equations of motion, SI units, forces per mass. Gravity has the component
 # `gravity`, g cos α, normal to the track, and `downhill`, g sin α, against the feeding direction. A part at rest has
-# the √penetration scale_w (√m); scale_v (m/s) is the speed of a fall by this penetration.
+# the √penetration scale_w (√m); scale_v (m/s) is the speed of a fall by this penetration. The last three belong to
+# the plate: Bounds, the number of harmonics, and the address of their numbers in the parameter vector.
 Constants = namedtuple(
     "Constants",
     "omega period psi0 a_x a_z gravity downhill cos_shift sin_shift stiffness damping exponent friction "
-    "static_friction mass tension tolerance scale_w scale_v edge_w rest_speed rest_force",
+    "static_friction mass tension tolerance scale_w scale_v edge_w rest_speed rest_force bounds harmonics waves",
 )
 
 
@@ -42,6 +45,8 @@ def constants(parameters, tolerance):
     static_penetration = (gravity / stiffness) ** (1.0 / exponent)
     # cos(π/2) is not zero in floating point.
     along = math.cos(parameters[model.ANGLE]) if parameters[model.ANGLE] < 0.5 * math.pi else 0.0
+    a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
+    harmonics = parameters[len(PARAMETERS) :]
     edge_w = 0.0
     if exponent != 1.5 and exponent != 1.0:
         edge_w = (tolerance * gravity / stiffness) ** (0.5 / exponent)
@@ -50,7 +55,7 @@ def constants(parameters, tolerance):
         1.0 / parameters[model.FREQUENCY],
         parameters[model.PSI0],
         parameters[model.ACCELERATION] * along,
-        parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
+        a_z,
         gravity,
         parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION]),
         math.cos(parameters[model.PHASE_SHIFT]),
@@ -70,12 +75,15 @@ def constants(parameters, tolerance):
         10.0 * tolerance * math.sqrt(2.0 * gravity * static_penetration),
         # rest_force: weaker contact forces, per mass, are none.
         10.0 * tolerance * gravity,
+        plate.bounds(harmonics, a_z, omega),
+        harmonics.size // plate.NUMBERS,
+        harmonics.ctypes.data,
     )
 
 
 @compiled
 def workspace():
-    """A workspace (see contact_law) for the series of one step."""
+    """A workspace for the series of one step."""
     return np.zeros(FIRST + STEP)
 
 
@@ -116,6 +124,8 @@ def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
         of_spring = c.stiffness * abs(series[at + SPRING + ORDER - 1])
         allowed = c.tolerance * (c.stiffness * series[at + SPRING] + w0 * (c.damping * abs(v0) + c.gravity))
         length = min(length, (allowed / of_spring) ** (1.0 / (ORDER - 1)))
+    if plate.has_harmonics(c):
+        length = min(length, plate.series_length(c, series, at))
     return length
 
 
@@ -149,7 +159,7 @@ def end_step(c, series, at, w0, v0, pulled, length):
             event = SEPARATION
             shortened = True
     if c.tension != model.TENSION_ALLOW and c.damping > 0.0:
-        expand_force(c, series, at, -1.0 if pulled else 1.0, 0.0, 0.0)
+        expand_force(c, series, at, -1.0 if pulled else 1.0)
         # The series has the factor w, and so a root of its own at a separation.
         end = length * (1.0 - LEAVE_IMPACT) if event == SEPARATION else length
         root = polynomial.first_root(series, SCRATCH, 0.0, end, polynomial.LEAVE)

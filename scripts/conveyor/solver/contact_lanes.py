@@ -1,12 +1,13 @@
 """Contact steps of several trajectories side by side, which halves the time of maps.
 
 `step` calls the functions of contact in plain loops over the lanes, which LLVM turns into vector code. A step in which
-an event may be ends in contact, for its lane alone. Lanes follow Hertz contacts (exponent 1.5) whose force may pull.
+an event may be ends in contact, for its lane alone. Lanes follow Hertz contacts (exponent 1.5) whose force may pull,
+on plates without harmonics.
 """
 
 import numpy as np
 
-from . import contact, contact_law, model
+from . import contact, model, plate, workspace
 from .contact_law import expand_hertz
 from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SIZE, value_in_lane
@@ -25,7 +26,7 @@ TOLERANCE, SCALE_V, TIME, END, STEPS, LENGTH, LAPSE = range(9, 16)
 RATIO, ROOT = range(16, 18)  # contact.limiting_term
 # Row SERIES + row + n holds coefficient n of a row of a workspace's step.
 SERIES = 18
-KEPT = (contact_law.W, contact_law.T, contact_law.V, contact_law.SINE, contact_law.COSINE)
+KEPT = (workspace.W, workspace.T, workspace.V, workspace.SINE, workspace.COSINE)
 ROWS = SERIES + SIZE * len(KEPT)
 
 LINE = 64  # bytes, of a register and of a cache line
@@ -88,15 +89,15 @@ def step(memory, lanes):
         w, v = memory[place(W, lane)], memory[place(V, lane)]
         sine, cosine = memory[place(SINE, lane)], memory[place(COSINE, lane)]
         time, steps = memory[place(TIME, lane)], memory[place(STEPS, lane)]
-        new_w, new_v = value(memory, contact_law.W, lane, length), value(memory, contact_law.V, lane, length)
-        lapse = value(memory, contact_law.T, lane, length)
+        new_w, new_v = value(memory, workspace.W, lane, length), value(memory, workspace.V, lane, length)
+        lapse = value(memory, workspace.T, lane, length)
         memory[place(LAPSE, lane)] = lapse
         # Comparisons with NaN are false.
         proper = (new_w < HUGE) & (abs(new_v) < HUGE)
         proper &= (lapse <= memory[place(END, lane)] - time) & (steps < MAX_PIECES)
         taken = proper & (new_w > 0.0) & ~((v < 0.0) & (new_v > 0.0))
-        new_sine = value(memory, contact_law.SINE, lane, length)
-        new_cosine = value(memory, contact_law.COSINE, lane, length)
+        new_sine = value(memory, workspace.SINE, lane, length)
+        new_cosine = value(memory, workspace.COSINE, lane, length)
         memory[place(W, lane)] = new_w if taken else w
         memory[place(V, lane)] = new_v if taken else v
         memory[place(SINE, lane)] = new_sine if taken else sine
@@ -121,7 +122,7 @@ def new_memory(rows: int) -> tuple[np.ndarray, np.ndarray]:
 @compiled
 def can_follow(c):
     """Whether lanes can take the contact steps of a conveyor with these contact.Constants."""
-    return c.exponent == 1.5 and c.tension == model.TENSION_ALLOW
+    return c.exponent == 1.5 and c.tension == model.TENSION_ALLOW and not plate.has_harmonics(c)
 
 
 @compiled_into_callers

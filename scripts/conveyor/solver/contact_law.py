@@ -7,7 +7,7 @@ a contact step, its rate, its energy and a bound on its tension.
 With the penetration δ = -q = w² and the time dt = w ds (a Sundman transformation) the equations of motion of a Hertz
 contact become polynomial,
 
-    w' = v/2,   t' = w,   v' = w (g + a_z cos θ - (d_c/m) v) - (k_c/m) w^(2p+1),   θ' = ω w,
+    w' = v/2,   t' = w,   v' = w (g + z̈_s - (d_c/m) v) - (k_c/m) w^(2p+1),   θ' = ω w,
 
 where v = δ̇ is the speed of approach and ' = d/ds. Because v w is the derivative of w², the equation for v + (d_c/m) w²
 needs no product of v and w. For p = 1 and 3/2 no singularity is left on the real axis. For any other exponent w^(2p+1)
@@ -17,19 +17,15 @@ follows from the recurrence of a power.
 
 import numpy as np
 
+from . import plate
 from .jit import compiled, compiled_inline, compiled_into_callers, fma
-from .polynomial import ORDER, SHIFTED, SIZE, place
-from .unrolled import product, square
+from .plate import harmonic_rows, numbers_of  # noqa: F401 - for generated code
+from .polynomial import ORDER, SIZE, place
+from .unrolled import square
+from .workspace import COSINE, LIFT_W, SCRATCH, SINE, SPRING, SQUARE, T, V, W
 
-# A workspace is an array of rows of Taylor coefficients (see polynomial). The first row belongs to the search for
-# roots, and SCRATCH is free. Each contact step has STEP coefficients from its first row on, in the rows at + W, at + T
-# and so forth: w, t, v, sine and cosine of the phase, w², w^(2p+1), and the cosine times w.
-SCRATCH = SHIFTED + SIZE
-FIRST = SCRATCH + SIZE
-W, T, V, SINE, COSINE, SQUARE, SPRING, COSINE_W = range(0, 8 * SIZE, SIZE)
-STEP = 8 * SIZE
-# The letters of these rows in the generated code.
-LETTERS = {W: "w", T: "t", V: "v", SINE: "s", COSINE: "c", SQUARE: "q", SPRING: "p", COSINE_W: "x"}
+# The letters of the rows of a step in the generated code.
+LETTERS = {W: "w", T: "t", V: "v", SINE: "s", COSINE: "c", SQUARE: "q", SPRING: "p", LIFT_W: "x"}
 
 
 @compiled_inline
@@ -47,14 +43,14 @@ def force(c, w, v):
 
 
 @compiled_inline
-def force_rate(c, w, v, cosine):
-    """Rate of the contact force per mass (m/s³) at w, v and a phase with the given cosine."""
+def force_rate(c, w, v, press):
+    """Rate of the contact force per mass (m/s³) at w, v and the acceleration g + z̈_s (m/s²)."""
     stiffening = c.stiffness * c.exponent * v
     if c.exponent == 1.5:
         stiffening *= w
     elif c.exponent != 1.0:
         stiffening *= max(w, 0.0) ** (2.0 * c.exponent - 2.0)
-    return stiffening + c.damping * (c.gravity + c.a_z * cosine - force(c, w, v))
+    return stiffening + c.damping * (press - force(c, w, v))
 
 
 @compiled_into_callers
@@ -63,7 +59,7 @@ def impulse_of_tension(c, fastest, lapse):
 
     fastest : m/s, a bound on the speed of separation without what gravity and the plate add during the time
     """
-    return c.damping * (fastest + 2.0 * (c.gravity + c.a_z) * lapse) * lapse
+    return c.damping * (fastest + 2.0 * (c.gravity + c.bounds.lift) * lapse) * lapse
 
 
 @compiled_inline
@@ -75,19 +71,22 @@ def twice_elastic_energy(stiffness, exponent, w):
 
 
 @compiled_inline
-def next_speed(inverse, w, cosine_w, spring, square, gravity, a_z, stiffness, damping):
-    """Coefficient n + 1 of v from coefficients n of w, w cos θ and w^(2p+1), and n + 1 of w²; inverse = 1/(n + 1)."""
-    rate = fma(-stiffness, spring, fma(a_z, cosine_w, gravity * w))
+def next_speed(inverse, w, lift_w, spring, square, gravity, a_z, stiffness, damping):
+    """Coefficient n + 1 of v from coefficients n of w, w z̈_s/a_z and w^(2p+1), and n + 1 of w²; inverse = 1/(n + 1)."""
+    rate = fma(-stiffness, spring, fma(a_z, lift_w, gravity * w))
     return fma(-damping, square, rate * inverse)
 
 
-def hertz_source() -> str:
-    """Source of `expand_hertz`, which fills the rows of a step for p = 3/2.
+def hertz_source(*, harmonics: bool) -> str:
+    """Source of `expand_hertz` or, with `harmonics`, `expand_harmonic_hertz`: they fill the rows of a step for p = 3/2.
 
     Its arguments are w, v, sine and cosine at s = 0; gravity, a_z, omega, stiffness and damping per mass; the array,
     the place of its first coefficient, and the number of lanes, both unsigned; whether the last three rows are wanted.
     """
-    lines = ["def expand_hertz(w0, v0, s0, c0, gravity, a_z, omega, stiffness, damping, series, at, lanes, all_rows):"]
+    arguments = "w0, v0, s0, c0, gravity, a_z, omega, stiffness, damping, series, at, lanes, all_rows"
+    lines = [f"def expand_hertz({arguments}):"]
+    if harmonics:
+        lines = [f"def expand_harmonic_hertz(c, {arguments}):"]
     lines += ["t0 = 0.0", "q0 = w0 * w0"]
     for n in range(ORDER):
         inverse = 1.0 / (n + 1)
@@ -95,18 +94,14 @@ def hertz_source() -> str:
             f"w{n + 1} = v{n} * {0.5 * inverse!r}",
             f"t{n + 1} = w{n} * {inverse!r}",
             f"q{n + 1} = {square('w', n + 1)}",
-            f"x{n} = {product('c', 'w', n)}",
-            f"sine_w = {product('s', 'w', n)}",
+            *plate.recurrence(n, harmonics=harmonics),
             f"p{n} = {square('q', n)}",
             f"v{n + 1} = next_speed({inverse!r}, w{n}, x{n}, p{n}, q{n + 1}, gravity, a_z, stiffness, damping)",
-            f"turn = omega * {inverse!r}",
-            f"c{n + 1} = -turn * sine_w",
-            f"s{n + 1} = turn * x{n}",
         ]
     for row, letter in LETTERS.items():
         if row == SQUARE:
             lines += ["if not all_rows:", "    return"]
-        terms = ORDER if row in (SPRING, COSINE_W) else ORDER + 1
+        terms = ORDER if row in (SPRING, LIFT_W) else ORDER + 1
         for n in range(SIZE):
             lines += [f"series[at] = {letter}{n}"] if n < terms else []
             lines += ["at += lanes"]
@@ -114,8 +109,9 @@ def hertz_source() -> str:
 
 
 # Named after this file, so that numba can cache the machine code.
-exec(compile(hertz_source(), __file__, "exec"))
-expand_hertz = compiled_inline(expand_hertz)  # noqa: F821
+for harmonics in (False, True):
+    exec(compile(hertz_source(harmonics=harmonics), __file__, "exec"))
+expand_hertz, expand_harmonic_hertz = compiled_inline(expand_hertz), compiled_inline(expand_harmonic_hertz)  # noqa: F821
 
 
 @compiled
@@ -123,6 +119,15 @@ def expand_one_hertz(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, dam
     """`expand_hertz` for one trajectory."""
     first, lanes = np.uint64(at), np.uint64(1)
     expand_hertz(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, series, first, lanes, True)
+
+
+@compiled
+def expand_one_harmonic_hertz(c, w0, v0, sine0, cosine0, stiffness, damping, series, at):
+    """`expand_harmonic_hertz` for one trajectory."""
+    plate.begin_series(c, series, at, sine0, cosine0)
+    first, lanes = np.uint64(at), np.uint64(1)
+    constants = c.gravity, c.a_z, c.omega, stiffness, damping
+    expand_harmonic_hertz(c, w0, v0, sine0, cosine0, *constants, series, first, lanes, True)
 
 
 @compiled_into_callers
@@ -135,19 +140,17 @@ def power_term(series, w, power, exponent, n):
 
 
 @compiled
-def expand_other(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping, exponent, edge_w, series, at):
-    """Fill the rows of a step for any contact exponent. Below `edge_w` (√m), the spring is switched off, see above."""
-    w, t, v, sine, cosine = at + W, at + T, at + V, at + SINE, at + COSINE
-    squared, spring = at + SQUARE, at + SPRING
-    hooke = exponent == 1.0
-    of_w = 2.0 * exponent + 1.0
+def expand_other(c, w0, v0, sine0, cosine0, stiffness, damping, series, at):
+    """Fill the rows of a step for any conveyor. Below `edge_w` (√m), the spring is switched off, see above."""
+    w, t, v, squared, spring = at + W, at + T, at + V, at + SQUARE, at + SPRING
+    hooke = c.exponent == 1.0
+    of_w = 2.0 * c.exponent + 1.0
     series[w] = w0
     series[t] = 0.0
     series[v] = v0
-    series[sine] = sine0
-    series[cosine] = cosine0
+    plate.begin_series(c, series, at, sine0, cosine0)
     series[squared] = w0 * w0
-    general = not hooke and w0 > edge_w
+    general = not hooke and w0 > c.edge_w
     for n in range(SIZE):
         series[spring + n] = 0.0
     if general:
@@ -156,22 +159,18 @@ def expand_other(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, damping
         inverse = 1.0 / (n + 1)
         series[w + n + 1] = 0.5 * series[v + n] * inverse
         series[t + n + 1] = series[w + n] * inverse
-        cosine_w = sine_w = cube = 0.0
+        plate.extend_series(c, series, at, n)
+        cube = 0.0
         doubled = series[w + n + 1] * w0
         for k in range(n + 1):
-            later = series[place(w, n - k)]
-            cosine_w += series[place(cosine, k)] * later
-            sine_w += series[place(sine, k)] * later
-            cube += series[place(squared, k)] * later
+            cube += series[place(squared, k)] * series[place(w, n - k)]
             doubled += series[place(w, k)] * series[place(w, n + 1 - k)]
         if hooke:
             series[spring + n] = cube
-        series[at + COSINE_W + n] = cosine_w
         series[squared + n + 1] = doubled
-        series[cosine + n + 1] = -omega * sine_w * inverse
-        series[sine + n + 1] = omega * cosine_w * inverse
+        lift_w = series[at + LIFT_W + n]
         series[v + n + 1] = next_speed(
-            inverse, series[w + n], cosine_w, series[spring + n], doubled, gravity, a_z, stiffness, damping
+            inverse, series[w + n], lift_w, series[spring + n], doubled, c.gravity, c.a_z, stiffness, damping
         )
         if general:
             series[spring + n + 1] = power_term(series, w, spring, of_w, n + 1)
@@ -182,12 +181,12 @@ def expand(c, series, at, w0, v0, sine0, cosine0, free):
     """Fill the rows of a step from their values at s = 0; `free` leaves the contact force out."""
     stiffness = 0.0 if free else c.stiffness
     damping = 0.0 if free else c.damping
-    if c.exponent == 1.5:
+    if c.exponent == 1.5 and plate.has_harmonics(c):
+        expand_one_harmonic_hertz(c, w0, v0, sine0, cosine0, stiffness, damping, series, at)
+    elif c.exponent == 1.5:
         expand_one_hertz(w0, v0, sine0, cosine0, c.gravity, c.a_z, c.omega, stiffness, damping, series, at)
     else:
-        expand_other(
-            w0, v0, sine0, cosine0, c.gravity, c.a_z, c.omega, stiffness, damping, c.exponent, c.edge_w, series, at
-        )
+        expand_other(c, w0, v0, sine0, cosine0, stiffness, damping, series, at)
 
 
 @compiled_inline
@@ -208,19 +207,10 @@ def expand_power(c, series, at, exponent):
 
 
 @compiled_inline
-def expand_force(c, series, at, scale, plate, slack):
-    """Fill the row SCRATCH with the series of w (scale F_c/m + plate cos(θ + ε) + slack).
-
-    The series has the sign of the expression in brackets. The product of sin θ and w follows from
-    (cos θ)' = -ω w sin θ.
-    """
-    plate, turned = plate * c.cos_shift, plate * c.sin_shift / c.omega
+def expand_force(c, series, at, scale):
+    """Fill the row SCRATCH with the series of w scale F_c/m along a step, which has the sign of the force."""
     for n in range(ORDER):
         damper = c.damping * (n + 1) * series[place(at + SQUARE, n + 1)]
         force = c.stiffness * series[place(at + SPRING, n)] + damper
-        total = scale * force + plate * series[place(at + COSINE_W, n)]
-        series[place(SCRATCH, n)] = total + slack * series[place(at + W, n)]
-    if turned != 0.0:
-        for n in range(ORDER):
-            series[place(SCRATCH, n)] += turned * (n + 1) * series[place(at + COSINE, n + 1)]
+        series[place(SCRATCH, n)] = scale * force
     series[SCRATCH + ORDER] = 0.0

@@ -1,13 +1,14 @@
 """Flight: the part follows a parabola, and the search for the next impact passes none.
 
 Above the plate's highest point there is nothing to hit, and one closed form covers that part of a flight. Below it the
-part's acceleration relative to the plate, q̈ = -g - a_z cos θ, lies between -(g + a_z) and a_z - g. The parabola with
-the lower bound reaches the plate before the part does, so that a step to its root is safe.
+part's acceleration relative to the plate, q̈ = -g - z̈_s, is at least -(g + the bound on z̈_s). The parabola with this
+acceleration reaches the plate before the part does, so that a step to its root is safe.
 """
 
 import math
 from collections import namedtuple
 
+from . import plate
 from .jit import compiled, compiled_inline, compiled_into_callers
 
 # A part stays below the plate's highest point for sqrt(a_z / g) / π cycles at most, which is a thousand within
@@ -15,27 +16,36 @@ from .jit import compiled, compiled_inline, compiled_into_callers
 MAX_STEPS = 1_000_000
 EPSILON = 2.220446049250313e-16
 TURN = 2.0 * math.pi
+# Shortest advance of the phase (rad) in a search for the largest gap: it leaves a root of the rate, and changes the gap
+# by less than rounding errors.
+LEAVE = 1e-7
 # A gap below zero by more than this many rounding errors is an error of the search.
 LOST = 1e6
 
-# The take-off of a flight: height z (m), vertical velocity vz (m/s), phase theta (rad). Gravity and a_z (m/s²), omega
-# (rad/s).
-Flight = namedtuple("Flight", "z vz theta gravity a_z omega")
+# The take-off of a flight: height z (m), vertical velocity vz (m/s), phase theta (rad); contact.Constants.
+Flight = namedtuple("Flight", "z vz theta c")
 
 
 @compiled_inline
 def gap(flight, tau):
     """Gap (m) and its rate (m/s) after the time `tau` (s) of a flight."""
-    phase = flight.theta + flight.omega * tau
+    phase = flight.theta + flight.c.omega * tau
     return gap_at_phase(flight, tau, math.sin(phase), math.cos(phase))
 
 
 @compiled_inline
 def gap_at_phase(flight, tau, sine, cosine):
     """`gap` for a known sine and cosine of the excitation's phase."""
-    z, vz, _, gravity, a_z, omega = flight
-    q = z + (vz - 0.5 * gravity * tau) * tau + a_z / (omega * omega) * cosine
-    return q, vz - gravity * tau - a_z / omega * sine
+    z, vz, _, c = flight
+    q = z + (vz - 0.5 * c.gravity * tau) * tau - plate.height(c, sine, cosine)
+    return q, vz - c.gravity * tau - plate.rise(c, sine, cosine)
+
+
+@compiled_inline
+def fall(flight, tau):
+    """Acceleration (m/s²) with which the gap closes after the time `tau` (s) of a flight."""
+    phase = flight.theta + flight.c.omega * tau
+    return flight.c.gravity + plate.lift(flight.c, math.sin(phase), math.cos(phase))
 
 
 @compiled_inline
@@ -59,23 +69,22 @@ def next_impact(flight, q, rate, limit):
     -------
     tau, speed : s, m/s (≥ 0); tau is infinite if there is no impact before `limit`, NaN if the search has failed
     """
-    z, vz, theta, gravity, a_z, omega = flight
-    bound = gravity + a_z
-    top = a_z / (omega * omega)
+    z, vz, _, c = flight
+    gravity, bound, top = c.gravity, c.gravity + c.bounds.lift, c.bounds.height
     rounding = 4.0 * EPSILON * (abs(z) + top)
     tau = 0.0
     if q <= rounding:
-        # On the plate the parabola allows no step. The bound |d³q/dt³| ≤ a_z ω with the actual q̈ does.
+        # On the plate the parabola allows no step. A bound on |d³q/dt³| with the actual q̈ does.
         tau = 2.0 * max(rate, 0.0) / bound
-        jerk = a_z * omega
-        half = -0.5 * (gravity + a_z * math.cos(theta))
+        jerk = c.bounds.jerk
+        half = -0.5 * fall(flight, 0.0)
         root = math.sqrt(half * half + 2.0 / 3.0 * jerk * max(rate, 0.0))
         # The form of the root of a quadratic that does not cancel.
         if half < 0.0:
             tau = max(tau, 2.0 * max(rate, 0.0) / (root - half))
         elif jerk > 0.0:
             tau = max(tau, 3.0 * (half + root) / jerk)
-        tau = max(tau, 1e-9 / omega)
+        tau = max(tau, 1e-9 / c.omega)
         if tau >= limit:
             return math.inf, 0.0
         q, rate = gap(flight, tau)
@@ -107,13 +116,16 @@ def highest_gap(flight, duration):
     """Largest gap (m) of a Flight that takes `duration` (s).
 
     It lies within an excitation cycle of the top of the parabola, because the plate passes its lowest point there.
-    Around each lowest point, where g + a_z cos θ > 0, the rate of the gap falls monotonically. A change of its sign
-    there brackets a largest gap.
     """
-    _, vz, theta, gravity, a_z, omega = flight
+    _, vz, theta, c = flight
+    gravity, a_z, omega = c.gravity, c.a_z, c.omega
     top = min(max(vz / gravity, 0.0), duration)
     begin, end = max(top - TURN / omega, 0.0), min(top + TURN / omega, duration)
     highest = max(gap(flight, begin)[0], gap(flight, end)[0])
+    if plate.has_harmonics(c):
+        return max(highest, highest_between(flight, begin, end))
+    # Around each lowest point of the plate, where q̈ < 0, the rate of the gap falls monotonically. A change of its sign
+    # there brackets a largest gap.
     falling = math.pi if a_z <= gravity else math.acos(-gravity / a_z)  # half-width of a bracket, rad
     lowest = math.ceil((theta + omega * begin - falling) / TURN)
     while TURN * lowest - falling < theta + omega * end:
@@ -140,6 +152,25 @@ def summit(flight, low, high):
         # The gap is flat at its summit: a rate this small no longer changes its height.
         if abs(rate) * (high - low) <= 1e-14 * q:
             break
-        newton = tau + rate / (flight.gravity + flight.a_z * math.cos(flight.theta + flight.omega * tau))
+        newton = tau + rate / fall(flight, tau)
         tau = newton if low < newton < high else 0.5 * (low + high)
     return q
+
+
+@compiled_into_callers
+def highest_between(flight, begin, end):
+    """Largest gap (m) at the roots of its rate between two times of a flight, none of which is passed.
+
+    With the bound on |d³q/dt³|, a step ends before the rate can have changed its sign. Near a root such steps converge
+    quadratically, and a shortest step then leaves it.
+    """
+    jerk, shortest, highest, tau = flight.c.bounds.jerk, LEAVE / flight.c.omega, 0.0, begin
+    while tau < end:
+        q, rate = gap(flight, tau)
+        highest = max(highest, q)
+        # The rate's distance from zero, and how fast it shrinks.
+        closing = math.copysign(fall(flight, tau), rate * fall(flight, tau))
+        root = math.sqrt(closing * closing + 2.0 * jerk * abs(rate))
+        advance = 2.0 * abs(rate) / (root + closing) if closing > 0.0 else (root - closing) / jerk
+        tau += max(advance, shortest)
+    return highest

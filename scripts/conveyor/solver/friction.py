@@ -14,50 +14,47 @@ motion u and the margin of stick are polynomials.
 
 import math
 
-from . import polynomial
-from .contact_law import COSINE, SCRATCH, SINE, T, V, expand_force, impulse_of_tension
+from . import plate, polynomial
+from .contact_law import expand_force, impulse_of_tension
 from .jit import compiled_inline, compiled_into_callers
 from .polynomial import ORDER, place
-
-
-@compiled_inline
-def along(c, sine, cosine):
-    """Sine and cosine of the plate's phase along the track, θ + ε, from the sine and cosine of the phase θ."""
-    return sine * c.cos_shift + cosine * c.sin_shift, cosine * c.cos_shift - sine * c.sin_shift
+from .workspace import SCRATCH
 
 
 @compiled_inline
 def pull(c, sine, cosine):
     """ẍ_s + g sin α (m/s²) at the phase θ with a sine and cosine."""
-    acceleration = c.a_x * along(c, sine, cosine)[1]
+    acceleration = c.a_x * plate.pull_share(c, sine, cosine)
     # On a level track the sign of a negative zero must survive: it decides the direction of a slip that begins.
     return acceleration + c.downhill if c.downhill != 0.0 else acceleration
 
 
 @compiled_into_callers
-def keeps_slipping(c, segment, piece, slip, plate, gain, fastest):
+def keeps_slipping(c, segment, piece, slip, swing, gain, fastest):
     """Whether bounds alone show that the slip velocity does not vanish until a contact step ends.
 
     Parameters
     ----------
     segment, piece : the horizontal.Segment, and the vertical.Piece in which it lies
-    slip, plate : slip velocity at its beginning and the change of ẋ_s until the end, times the slip's sign, m/s
+    slip, swing : slip velocity at its beginning and the change of ẋ_s until the end, times the slip's sign, m/s
     gain : ∫ F_c/m dt, m/s
     fastest : m/s, as in contact_law.impulse_of_tension
 
     Friction lowers the slip by μ times the impulse of the force, and raises it where the force pulls. The velocity of
-    the plate is monotonic while cos(θ + ε) keeps its sign, and gravity changes that of the part monotonically.
+    the plate is monotonic while its acceleration keeps its sign, and gravity changes that of the part monotonically.
     """
     lapse = piece.duration - segment.t
     tension = impulse_of_tension(c, fastest, lapse)
     turn = c.omega * lapse
     slip += min(segment.sigma * c.downhill * lapse, 0.0)
-    rise, fall = max(plate, 0.0), max(-plate, 0.0)
-    begin, end = along(c, segment.sine, segment.cosine)[1], along(c, piece.sine, piece.cosine)[1]
-    if begin * end <= 0.0 or turn > 1.0:
-        rise = fall = c.a_x * min(max(abs(begin), abs(end)) + turn, 1.0) * lapse
+    rise, fall = max(swing, 0.0), max(-swing, 0.0)
+    begin = plate.pull_share(c, segment.sine, segment.cosine)
+    end = plate.pull_share(c, piece.sine, piece.cosine)
+    if turn > 1.0 or not plate.keeps_direction(c, begin, end, turn):
+        largest = max(abs(begin), abs(end)) + c.bounds.pull_rate * turn
+        rise = fall = c.a_x * min(largest, c.bounds.pull) * lapse
     forward = slip - fall - segment.mu * (gain + tension)
-    backward = slip + plate - segment.mu * gain - rise - segment.mu * tension
+    backward = slip + swing - segment.mu * gain - rise - segment.mu * tension
     return max(forward, backward) > 0.0
 
 
@@ -67,16 +64,9 @@ def slip_end(c, step, segment, slip, leave):
 
     `slip` is the slip velocity at the segment's beginning (m/s), `leave` as in polynomial.first_root.
     """
-    series, at, mu = step.series, step.at, segment.mu
-    speed = segment.sigma * c.a_x / c.omega
-    plate, turned = speed * c.cos_shift - mu * c.a_z / c.omega, speed * c.sin_shift
+    series, mu = step.series, segment.mu
     fall = mu * c.gravity - segment.sigma * c.downhill
-    for n in range(ORDER + 1):
-        slipped = plate * series[place(at + SINE, n)] + mu * series[place(at + V, n)]
-        series[place(SCRATCH, n)] = slipped - fall * series[place(at + T, n)]
-    if turned != 0.0:  # a loop of its own, because the paper's conveyor does not need it
-        for n in range(ORDER + 1):
-            series[place(SCRATCH, n)] += turned * series[place(at + COSINE, n)]
+    plate.expand_velocities(c, series, step.at, segment.sigma, -mu, mu, -fall)
     series[SCRATCH] = 0.0
     series[SCRATCH] = segment.sigma * slip - polynomial.value(series, SCRATCH, segment.s)
     return polynomial.first_root(series, SCRATCH, segment.s, step.piece.length, leave)
@@ -88,17 +78,20 @@ def stick_end(c, step, segment):
 
     The s is infinite if the part sticks to the end of the step, or if nothing moves it along the track. While
     |ẍ_s + g sin α| > μ_s F_c/m the slip that begins cannot end. On a level track the margin in a direction stays
-    positive if cos(θ + ε) has its sign at both ends.
+    positive if ẍ_s has its sign throughout.
     """
     series, at, length = step.series, step.at, step.piece.length
     end, lasting = math.inf, False
     if c.a_x == 0.0 and c.downhill == 0.0:
         return end, lasting
-    first, last = along(c, segment.sine, segment.cosine)[1], along(c, step.piece.sine, step.piece.cosine)[1]
+    first = plate.pull_share(c, segment.sine, segment.cosine)
+    last = plate.pull_share(c, step.piece.sine, step.piece.cosine)
+    pushed = plate.keeps_direction(c, first, last, c.omega * (step.piece.duration - segment.t))
     for direction in (-1.0, 1.0):
-        if c.downhill != 0.0 or direction * first <= 0.0 or direction * last <= 0.0:
+        if c.downhill != 0.0 or direction * first <= 0.0 or not pushed:
             slack = c.static_friction * c.rest_force + direction * c.downhill
-            expand_force(c, series, at, c.static_friction, direction * c.a_x, slack)
+            expand_force(c, series, at, c.static_friction)
+            plate.add_pull(c, series, at, direction, slack)
             root = polynomial.first_root(series, SCRATCH, segment.s, length, polynomial.LEAVE)
             if root < end:
                 for n in range(ORDER):

@@ -8,7 +8,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from . import contact_law, friction
+from . import contact_law, friction, plate, workspace
 from .jit import compiled_inline, compiled_into_callers
 from .model import TENSION_CLIP
 from .polynomial import LEAVE, value
@@ -61,7 +61,7 @@ def slip_direction(c, sine, cosine, vx, force, mu):
 
     force : F_c/m, m/s²; mu : coefficient of static friction
     """
-    slip = c.a_x / c.omega * friction.along(c, sine, cosine)[0] - vx
+    slip = plate.speed(c, sine, cosine) - vx
     if slip == 0.0:
         return friction.direction_at_rest(c, friction.pull(c, sine, cosine), force, mu)
     return math.copysign(1.0, slip)
@@ -77,11 +77,9 @@ def slide(c, x, vx, tau):
 @compiled_inline
 def state_in_segment(c, segment, tau, sine, cosine, z, vz):
     """x (m) and ẋ (m/s) a time tau (s) after the beginning of a segment, where the vertical motion is z, vz."""
-    speed = c.a_x / c.omega
     if segment.sigma == 0.0:
-        sine_x, cosine_x = friction.along(c, sine, cosine)
-        begin = friction.along(c, segment.sine, segment.cosine)[1]
-        return segment.x - speed / c.omega * (cosine_x - begin), speed * sine_x
+        path = plate.path_between(c, segment.sine, segment.cosine, sine, cosine)
+        return segment.x + path, plate.speed(c, sine, cosine)
     rub = segment.sigma * segment.mu
     path = z - segment.z - segment.vz * tau + 0.5 * c.gravity * tau * tau
     x, vx = slide(c, segment.x, segment.vx, tau)
@@ -103,14 +101,11 @@ def segment_end(c, step, segment, released, fastest, leave):
     piece = step.piece
     if segment.sigma == 0.0:
         return friction.stick_end(c, step, segment)
-    speed_x, speed_z = c.a_x / c.omega, c.a_z / c.omega
-    begin = friction.along(c, segment.sine, segment.cosine)[0]
-    slip = speed_x * begin - segment.vx
-    turn = piece.sine - segment.sine
-    ahead = piece.duration - segment.t
-    gain = speed_z * turn - piece.v + segment.v + c.gravity * ahead
-    plate = segment.sigma * speed_x * (friction.along(c, piece.sine, piece.cosine)[0] - begin)
-    if friction.keeps_slipping(c, segment, piece, segment.sigma * slip, plate, gain, fastest):
+    slip = plate.speed(c, segment.sine, segment.cosine) - segment.vx
+    rise = plate.rise_between(c, segment.sine, segment.cosine, piece.sine, piece.cosine)
+    gain = rise - piece.v + segment.v + c.gravity * (piece.duration - segment.t)
+    swing = segment.sigma * plate.speed_between(c, segment.sine, segment.cosine, piece.sine, piece.cosine)
+    if friction.keeps_slipping(c, segment, piece, segment.sigma * slip, swing, gain, fastest):
         return math.inf, False
     return friction.slip_end(c, step, segment, slip, leave), False
 
@@ -119,12 +114,12 @@ def segment_end(c, step, segment, released, fastest, leave):
 def sample_contact(c, step, segment, tau, sample):
     """Fill a `sample`, shape (6,), at a time tau (s) after the beginning of a contact step, within a segment."""
     series, at, motion = step.series, step.at, step.motion
-    speed_z = c.a_z / c.omega
     s = invert_time(series, at, step.piece.length, tau)
     phase = motion.theta + c.omega * tau
     sine, cosine = math.sin(phase), math.cos(phase)
-    w, v = value(series, at + contact_law.W, s), value(series, at + contact_law.V, s)
-    z, vz = -speed_z / c.omega * cosine - w * w, speed_z * sine - v
+    w, v = value(series, at + workspace.W, s), value(series, at + workspace.V, s)
+    z, vz = plate.surface(c, sine, cosine)
+    z, vz = z - w * w, vz - v
     force = 0.0 if motion.pulled and c.tension == TENSION_CLIP else contact_law.force(c, w, v)
     rub = friction.pull(c, sine, cosine) if segment.sigma == 0.0 else segment.sigma * segment.mu * force
     sample[X], sample[VX] = state_in_segment(c, segment, tau - segment.t, sine, cosine, z, vz)
@@ -136,9 +131,9 @@ def sample_contact(c, step, segment, tau, sample):
 @compiled_into_callers
 def first_segment(c, motion, horizontal):
     """The Segment that begins with a contact step."""
-    speed_z = c.a_z / c.omega
     mu = 0.0 if motion.pulled else c.friction
-    z, vz = -speed_z / c.omega * motion.cosine - motion.w * motion.w, speed_z * motion.sine - motion.v
+    z, vz = plate.surface(c, motion.sine, motion.cosine)
+    z, vz = z - motion.w * motion.w, vz - motion.v
     x, vx, sigma = horizontal
     return Segment(sigma, mu, x, vx, 0.0, 0.0, motion.sine, motion.cosine, z, vz, motion.w, motion.v)
 
@@ -158,7 +153,6 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
     horizontal, sampled, events, segments : at the end of the step; after MAX_SEGMENTS segments the run must end
     """
     series, at, motion, piece, begin = step
-    speed_x, speed_z = c.a_x / c.omega, c.a_z / c.omega
     segment = first_segment(c, motion, horizontal)
     x, vx, sigma = horizontal
     fastest = max(-motion.v, -piece.v, 0.0)
@@ -171,8 +165,8 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
         changed = change < piece.length
         if changed:
             s = change
-            t = value(series, at + contact_law.T, s)
-            w, v = value(series, at + contact_law.W, s), value(series, at + contact_law.V, s)
+            t = value(series, at + workspace.T, s)
+            w, v = value(series, at + workspace.W, s), value(series, at + workspace.V, s)
             phase = motion.theta + c.omega * t
             sine, cosine = math.sin(phase), math.cos(phase)
         while sampled < record.times.size and begin + t >= record.times[sampled]:
@@ -180,7 +174,8 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
             sampled += 1
         if sampled == record.times.size or not feeding:
             break
-        z, vz = -speed_z / c.omega * cosine - w * w, speed_z * sine - v
+        z, vz = plate.surface(c, sine, cosine)
+        z, vz = z - w * w, vz - v
         x, vx = state_in_segment(c, segment, t - segment.t, sine, cosine, z, vz)
         if not changed or segments == MAX_SEGMENTS:
             break
@@ -198,7 +193,7 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
             leave = LEAVE
             events = record_event(record, events, begin + t, kind)
         # The part has the velocity of the plate here, exactly.
-        vx = speed_x * friction.along(c, sine, cosine)[0]
+        vx = plate.speed(c, sine, cosine)
         segment = Segment(sigma, segment.mu, x, vx, s, t, sine, cosine, z, vz, w, v)
     if feeding and c.static_friction == 0.0:
         # Without friction the part does not take over the error of the moment at which the slip vanishes.

@@ -78,3 +78,19 @@ def no_refcount(typing_context, value):
         return without_refcount(context, builder, signature.return_type, *arguments)
 
     return value(value), code
+
+
+@intrinsic
+def number_at(typing_context, address, place):
+    """The float64 at a place behind an address. The array must exist as long as the address is in use.
+
+    A tuple with an array of its own instead of its address counts references wherever it is copied: labels of maps
+    would take 1.25 times as long.
+    """
+
+    def code(context, builder, signature, arguments):
+        address, place = arguments
+        numbers = builder.inttoptr(address, context.get_value_type(types.float64).as_pointer())
+        return builder.load(builder.gep(numbers, [place]))
+
+    return types.float64(types.int64, types.int64), code

@@ -6,6 +6,8 @@ plate moves harmonically, along the track with a phase shift ε; the part is a p
     z_s = -(a_z/ω²) cos θ,         ż_s = (a_z/ω) sin θ,         z̈_s = a_z cos θ,
     x_s = -(a_x/ω²) cos(θ + ε),    ẋ_s = (a_x/ω) sin(θ + ε),    ẍ_s = a_x cos(θ + ε).
 
+Harmonics of the orders k may be added to both accelerations (see Harmonic), and their integrals to the others.
+
 With the gap q = z_p - z_s, the contact force acts while q ≤ 0:
 
     F_c = k_c (-q)^p - d_c q̇,   m z̈_p = -m g cos α + F_c,   m ẍ_p = -m g sin α + μ F_c sign(ẋ_s - ẋ_p).
@@ -14,12 +16,15 @@ The part sticks while |ẍ_s + g sin α| ≤ μ_s F_c/m. The paper's conveyor ha
 """
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from operator import attrgetter
+from typing import NamedTuple
 
 import numpy as np
 
-from ..parameters import PARAMETERS, RANGES, TENSION_MODES, UNITS
+from ..parameters import HARMONIC, MOST_HARMONICS, PARAMETERS, RANGES, TENSION_MODES, UNITS
+from . import plate
 
 ACCELERATION, ANGLE, FREQUENCY, PSI0, STIFFNESS, DAMPING, FRICTION, MASS = range(8)
 EXPONENT, GRAVITY, INCLINATION, PHASE_SHIFT, STATIC_FRICTION, TENSION, Z0, VZ0 = range(8, len(PARAMETERS))
@@ -45,6 +50,39 @@ def check_static_friction(friction: float, static_friction: float) -> None:
         raise ValueError(f"static_friction = {static_friction!r} is below friction = {friction!r}; {remedy}")
 
 
+class Harmonic(NamedTuple):
+    """A harmonic of order k of the plate's acceleration, along the track and normal to it.
+
+    They are â cos φ along cos(kθ + along_phase) and â sin φ normal cos(kθ + normal_phase), with θ = ωt + ψ0.
+    """
+
+    order: int
+    along: float = 0.0
+    along_phase: float = 0.0
+    normal: float = 0.0
+    normal_phase: float = 0.0
+
+
+def check_harmonics(harmonics: Sequence[Harmonic | Mapping[str, float]]) -> tuple[Harmonic, ...]:
+    """`harmonics` as Harmonics in ascending order; ValueError that names the number which cannot be used."""
+    found = []
+    for k, given in enumerate(harmonics):
+        given = given._asdict() if isinstance(given, Harmonic) else given
+        if not isinstance(given, Mapping) or "order" not in given or not given.keys() <= HARMONIC.keys():
+            raise ValueError(f"harmonics[{k}] = {given!r} must have an order, and of {', '.join(HARMONIC)} only")
+        for name, value in given.items():
+            _, unit, (low, high) = HARMONIC[name]
+            kinds = (int, np.integer) if name == "order" else (int, float, np.integer, np.floating)
+            if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, kinds) or not low <= value <= high:
+                kind = "a whole number" if name == "order" else "a number"
+                raise ValueError(f"harmonics[{k}].{name} = {value!r} must be {kind} in [{low:g}, {high:g}] {unit}")
+        found.append(Harmonic(int(given["order"]), *(float(given.get(name, 0.0)) for name in Harmonic._fields[1:])))
+    orders = [harmonic.order for harmonic in found]
+    if len(set(orders)) < len(orders) or len(orders) > MOST_HARMONICS:
+        raise ValueError(f"harmonics have the orders {orders}: at most {MOST_HARMONICS}, each once")
+    return tuple(sorted(found))
+
+
 @dataclass(frozen=True, slots=True)
 class Conveyor:
     """A vibrating plate, the part on it and their contact, in SI units. The defaults are the values of Sect. 3.
@@ -67,6 +105,7 @@ class Conveyor:
     tension : treatment of a contact force that pulls, F_c < 0, because damping outweighs stiffness
         "allow" keeps Eqs. 7 and 11 as written, "frictionless" lets the contact pull without friction, and "clip" sets
         F_c = max(F_c, 0).
+    harmonics : harmonics of the plate's motion, each a Harmonic or a mapping with some of its fields
 
     Raises
     ------
@@ -88,6 +127,7 @@ class Conveyor:
     phase_shift: float = 0.0
     static_friction: float | None = None
     tension: str = "allow"
+    harmonics: tuple[Harmonic, ...] = ()
 
     def __post_init__(self):
         for name, value in zip(PARAMETERS, numbers_of(self), strict=False):
@@ -97,6 +137,7 @@ class Conveyor:
             check_static_friction(self.friction, self.static_friction)
         if not isinstance(self.tension, str) or self.tension not in TENSION_MODES:
             raise ValueError(f"tension = {self.tension!r} is not one of {', '.join(TENSION_MODES)}")
+        object.__setattr__(self, "harmonics", check_harmonics(self.harmonics))
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,8 +157,17 @@ class Start:
         check_parameter("vz0", self.vz)
 
 
+def pack_harmonics(harmonics: Sequence[Harmonic]) -> list[float]:
+    """The numbers of harmonics in the parameter vector, see plate."""
+    waves = []
+    for order, along, along_phase, normal, normal_phase in harmonics:
+        waves += [order, along * math.cos(along_phase), along * math.sin(along_phase)]
+        waves += [normal * math.cos(normal_phase), normal * math.sin(normal_phase)]
+    return waves
+
+
 def pack(conveyor: Conveyor, start: Start) -> np.ndarray:
-    """The parameter vector, float64, shape (16,), in the order of PARAMETERS.
+    """The parameter vector, float64: 16 numbers in the order of PARAMETERS, and 5 for each harmonic (see plate).
 
     z0 is NaN for a start on the conveyor, and static_friction a number in every case.
     """
@@ -125,13 +175,25 @@ def pack(conveyor: Conveyor, start: Start) -> np.ndarray:
     *numbers, static_friction = numbers_of(conveyor)
     static_friction = conveyor.friction if static_friction is None else static_friction
     tension = TENSION_MODES.index(conveyor.tension)
-    return np.array([*numbers, static_friction, tension, z0, start.vz], dtype=np.float64)
+    waves = pack_harmonics(conveyor.harmonics)
+    return np.array([*numbers, static_friction, tension, z0, start.vz, *waves], dtype=np.float64)
 
 
 def unpack(parameters: np.ndarray) -> tuple[Conveyor, Start]:
-    """The inverse of `pack`, with a number for static_friction in every case."""
-    *numbers, tension, z0, vz0 = (float(value) for value in parameters)
-    return Conveyor(*numbers, TENSION_MODES[int(tension)]), Start("conveyor" if math.isnan(z0) else z0, vz0)
+    """The inverse of `pack`, with a number for static_friction in every case, and phases of harmonics in [-π, π]."""
+    *numbers, tension, z0, vz0 = (float(value) for value in parameters[: len(PARAMETERS)])
+    harmonics = []
+    for order, *waves in parameters[len(PARAMETERS) :].reshape(-1, len(HARMONIC)).tolist():
+        polar = [(math.hypot(*wave), math.atan2(wave[1], wave[0])) for wave in (waves[:2], waves[2:])]
+        harmonics.append(Harmonic(int(order), *polar[0], *polar[1]))
+    conveyor = Conveyor(*numbers, TENSION_MODES[int(tension)], tuple(harmonics))
+    return conveyor, Start("conveyor" if math.isnan(z0) else z0, vz0)
+
+
+def refuse_harmonics(parameters: np.ndarray, what: str) -> None:
+    """ValueError if packed parameters, shape (..., 16 + 5 h), have harmonics, which `what` does not take."""
+    if parameters.shape[-1] > len(PARAMETERS):
+        raise ValueError(f"{what} takes no harmonics of the plate; leave harmonics out of the model")
 
 
 def conveyor_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarray]:
@@ -140,9 +202,5 @@ def conveyor_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarr
     phase = omega * np.asarray(times, dtype=np.float64) + conveyor.psi0
     a_z = conveyor.acceleration * math.sin(conveyor.angle)
     a_x = conveyor.acceleration * math.cos(conveyor.angle)
-    return {
-        "x": -(a_x / omega**2) * np.cos(phase + conveyor.phase_shift),
-        "vx": (a_x / omega) * np.sin(phase + conveyor.phase_shift),
-        "z": -(a_z / omega**2) * np.cos(phase),
-        "vz": (a_z / omega) * np.sin(phase),
-    }
+    harmonics = pack(conveyor, Start())[len(PARAMETERS) :]
+    return plate.motion(a_x, a_z, omega, conveyor.phase_shift, harmonics, phase)

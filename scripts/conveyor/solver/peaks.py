@@ -4,10 +4,12 @@ Force and rate have closed forms at the ends of a contact step. If the rate chan
 between, the largest force is at a root of the rate along the step's series.
 """
 
-from .contact_law import COSINE, V, W, force, force_rate
+from .contact_law import force, force_rate
 from .jit import compiled, compiled_inline, compiled_into_callers
+from .plate import lift
 from .polynomial import value
 from .vertical import invert_time
+from .workspace import COSINE, SINE, V, W
 
 # Relative accuracy of the place of the largest force; the error of the force is about its square.
 CLOSE = 1e-5
@@ -20,16 +22,18 @@ MAX_HALVINGS = 30
 def force_and_rate(c, series, at, s):
     """F_c/m (m/s²) and its rate (m/s³) at the place `s` of a contact step."""
     w, v = value(series, at + W, s), value(series, at + V, s)
-    return force(c, w, v), force_rate(c, w, v, value(series, at + COSINE, s))
+    press = c.gravity + lift(c, value(series, at + SINE, s), value(series, at + COSINE, s))
+    return force(c, w, v), force_rate(c, w, v, press)
 
 
 @compiled_into_callers
 def is_monotonic(c, motion, piece):
     """Whether the force of a whole contact step, from `motion` to the end of its `piece`, is largest at an end."""
-    if force_rate(c, piece.w, piece.v, piece.cosine) >= 0.0:
+    if force_rate(c, piece.w, piece.v, c.gravity + lift(c, piece.sine, piece.cosine)) >= 0.0:
         return True
     # After an impact the damper's force may fall before the spring's force rises.
-    return force_rate(c, motion.w, motion.v, motion.cosine) <= 0.0 and motion.w != 0.0
+    press = c.gravity + lift(c, motion.sine, motion.cosine)
+    return force_rate(c, motion.w, motion.v, press) <= 0.0 and motion.w != 0.0
 
 
 @compiled

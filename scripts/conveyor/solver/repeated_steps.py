@@ -9,9 +9,10 @@ from collections import namedtuple
 
 import numpy as np
 
-from .contact_law import FIRST, STEP, expand
+from .contact_law import expand
 from .jit import compiled_into_callers
 from .vertical import CONTACT, Piece
+from .workspace import FIRST, STEP
 
 # Steps kept; further steps of a cycle share the last place.
 PLACES = 40

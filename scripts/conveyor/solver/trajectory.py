@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from . import contact, contact_law, peaks, repeated_steps, vertical
+from . import contact, contact_law, peaks, repeated_steps, vertical, workspace
 from .contact import FORCE_SIGN, SEPARATION
 from .flight import highest_gap
 from .horizontal import (
@@ -227,7 +227,7 @@ def follow(parameters, options, records, results, room, distances):
             if pieces > MAX_PIECES:
                 status = TOO_STIFF
                 break
-            at = contact_law.FIRST + place * contact_law.STEP
+            at = workspace.FIRST + place * workspace.STEP
             begins, x_before = base + motion.t, horizontal.x
             is_kept = reuse and motion.touching and repeated_steps.repeats(c, kept, place, motion)
             if is_kept:

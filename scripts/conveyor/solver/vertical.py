@@ -8,7 +8,7 @@ an excitation cycle, at which the excitation has the phase `origin`.
 import math
 from collections import namedtuple
 
-from . import contact, contact_law, polynomial
+from . import contact, contact_law, plate, polynomial, workspace
 from .contact import FORCE_SIGN, NOTHING, SEPARATION
 from .flight import Flight, gap_at_phase, next_impact
 from .jit import compiled, compiled_inline, compiled_into_callers
@@ -31,8 +31,9 @@ Piece = namedtuple("Piece", "kind duration length end w v sine cosine")
 @compiled
 def begin(c, z0, vz0, theta):
     """Gap (m) and its rate (m/s) of an initial condition; the gap is exactly 0 on the plate (z0 is NaN, Eq. 15)."""
-    q = 0.0 if math.isnan(z0) else z0 + c.a_z / (c.omega * c.omega) * math.cos(theta)
-    return q, vz0 - c.a_z / c.omega * math.sin(theta)
+    sine, cosine = math.sin(theta), math.cos(theta)
+    q = 0.0 if math.isnan(z0) else z0 - plate.height(c, sine, cosine)
+    return q, vz0 - plate.rise(c, sine, cosine)
 
 
 @compiled
@@ -42,14 +43,14 @@ def in_contact(c, q, rate, theta):
         return q < 0.0
     if rate != 0.0:
         return rate < 0.0
-    return c.gravity + c.a_z * math.cos(theta) > 0.0
+    return c.gravity + plate.lift(c, math.sin(theta), math.cos(theta)) > 0.0
 
 
 @compiled
 def motion_at(c, q, rate, t, theta):
     """The Motion with a gap q (m) and its rate (m/s) at the time t (s) of a cycle and the phase theta (rad)."""
     sine, cosine = math.sin(theta), math.cos(theta)
-    z, vz = q - c.a_z / (c.omega * c.omega) * cosine, rate + c.a_z / c.omega * sine
+    z, vz = q + plate.height(c, sine, cosine), rate + plate.rise(c, sine, cosine)
     touching = in_contact(c, q, rate, theta)
     w, v = math.sqrt(max(-q, 0.0)), -rate
     pulled = touching and c.tension != TENSION_ALLOW and contact_law.force(c, w, v) < 0.0
@@ -60,13 +61,13 @@ def motion_at(c, q, rate, t, theta):
 def invert_time(series, at, length, tau):
     """The s in [0, length] that a contact step reaches at the time `tau` (s) after its beginning."""
     low, high = 0.0, length
-    total = polynomial.value(series, at + contact_law.T, length)
+    total = polynomial.value(series, at + workspace.T, length)
     if tau >= total:  # also for a step too short to take time
         return length
     s = length * max(tau / total, 0.0)
     for _ in range(100):
-        error = polynomial.value(series, at + contact_law.T, s) - tau
-        w = polynomial.value(series, at + contact_law.W, s)
+        error = polynomial.value(series, at + workspace.T, s) - tau
+        w = polynomial.value(series, at + workspace.W, s)
         if error > 0.0:
             high = s
         else:
@@ -87,17 +88,17 @@ def cut_step(series, at, length, duration, end):
         duration,
         length,
         end,
-        polynomial.value(series, at + contact_law.W, length),
-        polynomial.value(series, at + contact_law.V, length),
-        polynomial.value(series, at + contact_law.SINE, length),
-        polynomial.value(series, at + contact_law.COSINE, length),
+        polynomial.value(series, at + workspace.W, length),
+        polynomial.value(series, at + workspace.V, length),
+        polynomial.value(series, at + workspace.SINE, length),
+        polynomial.value(series, at + workspace.COSINE, length),
     )
 
 
 @compiled_inline
 def flight_from(c, motion):
     """The Flight that begins with a Motion."""
-    return Flight(motion.z, motion.vz, motion.theta, c.gravity, c.a_z, c.omega)
+    return Flight(motion.z, motion.vz, motion.theta, c)
 
 
 @compiled_into_callers
@@ -114,7 +115,9 @@ def fly(c, motion, limit):
 @compiled_inline
 def is_grazing(c, motion):
     """Whether a part in contact only touches, with no speed: it is either pressed on or left behind by the plate."""
-    return motion.w == 0.0 and motion.v <= c.rest_speed and (motion.v <= 0.0 or c.gravity + c.a_z * motion.cosine > 0.0)
+    if motion.w != 0.0 or motion.v > c.rest_speed:
+        return False
+    return motion.v <= 0.0 or c.gravity + plate.lift(c, motion.sine, motion.cosine) > 0.0
 
 
 @compiled_into_callers
@@ -122,10 +125,10 @@ def graze(c, motion):
     """The Piece of a part for which `is_grazing` holds.
 
     The equations in s have a fixed point at w = v = 0. A part that is pressed on leaves it as δ = a τ²/2 with
-    a = g + a_z cos θ. The plate does not turn in this time, so that slip velocities are off by its product with ẍ_s:
+    a = g + z̈_s. The plate does not turn in this time, so that slip velocities are off by its product with ẍ_s:
     below 1e-9 m/s for the paper's contact, more for contacts that are softer by far.
     """
-    acceleration = c.gravity + c.a_z * motion.cosine
+    acceleration = c.gravity + plate.lift(c, motion.sine, motion.cosine)
     if acceleration > 0.0:
         w = 1e-9 * c.scale_w
         v = math.sqrt(2.0 * acceleration) * w
@@ -139,8 +142,8 @@ def press(c, series, at, motion, length, limit):
     length, w, v, lapse, end = contact.end_step(c, series, at, motion.w, motion.v, motion.pulled, length)
     if lapse > limit:
         return cut_step(series, at, invert_time(series, at, length, limit), limit, LIMIT)
-    sine = polynomial.value(series, at + contact_law.SINE, length)
-    cosine = polynomial.value(series, at + contact_law.COSINE, length)
+    sine = polynomial.value(series, at + workspace.SINE, length)
+    cosine = polynomial.value(series, at + workspace.COSINE, length)
     return Piece(CONTACT, lapse, length, end, w, v, sine, cosine)
 
 
@@ -168,16 +171,17 @@ def arrive(c, motion, piece, origin):
         if piece.end == IMPACT:
             return Motion(t, theta, sine, cosine, True, 0.0, v, False, 0.0, 0.0, 0.0, 0.0)
         q, rate = gap_at_phase(flight_from(c, motion), piece.duration, sine, cosine)
-        z = q - c.a_z / (c.omega * c.omega) * cosine
-        return Motion(t, theta, sine, cosine, False, 0.0, 0.0, False, z, rate + c.a_z / c.omega * sine, q, rate)
+        z, vz = q + plate.height(c, sine, cosine), rate + plate.rise(c, sine, cosine)
+        return Motion(t, theta, sine, cosine, False, 0.0, 0.0, False, z, vz, q, rate)
     touching = True
     if piece.end == SEPARATION:
         # A separation slower than rest_speed does not count while the plate presses on.
-        touching = piece.kind == CONTACT and v >= -c.rest_speed and c.gravity + c.a_z * cosine > 0.0
+        pressed_on = c.gravity + plate.lift(c, sine, cosine) > 0.0
+        touching = piece.kind == CONTACT and v >= -c.rest_speed and pressed_on
         v = 0.0 if touching else v
     pulled = motion.pulled != (piece.end == FORCE_SIGN)
-    z = -c.a_z / (c.omega * c.omega) * cosine
-    return Motion(t, theta, sine, cosine, touching, piece.w, v, pulled, z, c.a_z / c.omega * sine - v, 0.0, -v)
+    z, vz = plate.height(c, sine, cosine), plate.rise(c, sine, cosine) - v
+    return Motion(t, theta, sine, cosine, touching, piece.w, v, pulled, z, vz, 0.0, -v)
 
 
 @compiled_inline

@@ -13,13 +13,13 @@ import numpy as np
 from . import contact, contact_lanes, repeated_steps, trajectory, vertical
 from .contact import NOTHING
 from .contact_lanes import COSINE, END, LANES, LAPSE, LENGTH, NONE, ROWS, SINE, STEPS, V, W
-from .contact_law import FIRST
 from .flight import highest_gap
 from .horizontal import SAMPLES, Horizontal, Step, first_segment, sample_contact
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import VZ0, Z0
 from .trajectory import BEGIN_OF_CYCLE, MAX_PIECES, next_cycle, peak_of_step, sample_flight, time_into_cycle
 from .vertical import CONTACT, FLIGHT, LIMIT, LOST, Piece
+from .workspace import FIRST
 
 # The state of a lane's run: when it ends (s); the time at which its present cycle begins (s), and the number of the
 # cycle; pieces in the cycle, contact steps among them; time with contact force (s), largest gap (m), impacts; the time

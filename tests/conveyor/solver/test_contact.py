@@ -7,9 +7,9 @@ import pytest
 
 from conveyor import Conveyor, Start
 from conveyor.solver import contact, friction, vertical
-from conveyor.solver.contact_law import FIRST, SPRING
 from conveyor.solver.horizontal import Segment, Step
 from conveyor.solver.model import pack
+from conveyor.solver.workspace import FIRST, SPRING
 
 
 def constants(tolerance, **model):

@@ -7,8 +7,8 @@ import pytest
 from conveyor import Conveyor, Start
 from conveyor.solver import contact, contact_lanes, model, polynomial
 from conveyor.solver.contact_lanes import COSINE, END, LENGTH, SERIES, SINE, STEPS, TIME, V, W
-from conveyor.solver.contact_law import FIRST
 from conveyor.solver.trajectory import MAX_PIECES
+from conveyor.solver.workspace import FIRST
 
 TOLERANCES = (1e-6, 1e-8, 1e-12)
 

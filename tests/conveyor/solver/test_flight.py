@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start, simulate
-from conveyor.solver import flight
-from conveyor.solver.model import RANGES, conveyor_motion
+from conveyor.solver import contact, flight
+from conveyor.solver.model import RANGES, conveyor_motion, pack
 
 LIBRARY = Path(flight.__file__).parents[1]
 TURN = 2.0 * math.pi
@@ -43,6 +43,12 @@ def random_flights(count, seed):
         )
 
 
+def take_off(z, vz, theta, gravity, a_z, omega):
+    """The Flight above a plate that moves with a_z (m/s²) and omega (rad/s)."""
+    conveyor = Conveyor(acceleration=a_z, angle=0.5 * math.pi, frequency=omega / TURN, gravity=gravity)
+    return flight.Flight(z, vz, theta, contact.constants(pack(conveyor, Start()), 1e-10))
+
+
 def scanned(z, vz, theta, gravity, a_z, omega, times):
     """Gaps (m) of a flight at `times` (s)."""
     return z + vz * times - 0.5 * gravity * times**2 + a_z / omega**2 * np.cos(theta + omega * times)
@@ -52,9 +58,9 @@ def test_no_impact_is_missed():
     """It is at or before the first negative gap of a scan with forty samples per cycle."""
     met = 0
     for z, vz, q, rate, theta, gravity, a_z, omega in random_flights(400, seed=1):
-        tau, speed = flight.next_impact(flight.Flight(z, vz, theta, gravity, a_z, omega), q, rate, math.inf)
+        tau, speed = flight.next_impact(take_off(z, vz, theta, gravity, a_z, omega), q, rate, math.inf)
         size = abs(z) + abs(vz) * tau + gravity * tau**2 + a_z / omega**2
-        gap, approach = flight.gap(flight.Flight(z, vz, theta, gravity, a_z, omega), tau)
+        gap, approach = flight.gap(take_off(z, vz, theta, gravity, a_z, omega), tau)
         assert abs(gap) < 1e-14 * size
         assert speed == pytest.approx(max(-approach, 0.0), abs=1e-6 * speed)
         cycles = omega * tau / TURN
@@ -67,8 +73,8 @@ def test_no_impact_is_missed():
 
 def test_largest_gap_agrees_with_a_scan():
     for z, vz, q, rate, theta, gravity, a_z, omega in random_flights(300, seed=2):
-        tau, _ = flight.next_impact(flight.Flight(z, vz, theta, gravity, a_z, omega), q, rate, math.inf)
-        highest = flight.highest_gap(flight.Flight(z, vz, theta, gravity, a_z, omega), tau)
+        tau, _ = flight.next_impact(take_off(z, vz, theta, gravity, a_z, omega), q, rate, math.inf)
+        highest = flight.highest_gap(take_off(z, vz, theta, gravity, a_z, omega), tau)
         top = min(max(vz / gravity, 0.0), tau)
         near = np.clip(top + np.linspace(-1.5, 1.5, 20_001) * TURN / omega, 0.0, tau)
         far = np.linspace(0.0, tau, 20_001)
@@ -94,7 +100,7 @@ def test_a_long_fall_ends_on_the_plate():
 
 def test_a_failed_search_says_so(monkeypatch):
     monkeypatch.setattr(flight, "MAX_STEPS", 2)
-    tau, _ = flight.next_impact(flight.Flight(1.0, 0.0, 0.0, 9.81, 8.0, 314.0), 1.0, 0.0, math.inf)
+    tau, _ = flight.next_impact(take_off(1.0, 0.0, 0.0, 9.81, 8.0, 314.0), 1.0, 0.0, math.inf)
     assert math.isnan(tau)
 
 

@@ -4,6 +4,7 @@ All initial conditions on one conveyor share them, so that no trajectory is foll
 trapping_regions and chaotic_sets find them.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +15,6 @@ from ...solver.model import PARAMETERS, PSI0, VZ0, Z0
 BOXES = 256  # of a chaotic set, along each axis
 # Places of the initial condition; ψ0 only shifts the phase at which a motion is observed.
 INITIAL_CONDITION = (PSI0, Z0, VZ0)
-CONVEYOR = [place for place in range(len(PARAMETERS)) if place not in INITIAL_CONDITION]
 
 
 def distinct_conveyors(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -37,7 +37,7 @@ def distinct_rows(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """
     # In most ensembles rows of one conveyor follow each other; rows are slow to sort, and to copy.
     follows = np.arange(len(parameters)) > 0
-    for column in CONVEYOR:
+    for column in set(range(parameters.shape[1])) - set(INITIAL_CONDITION):
         follows[1:] &= parameters[1:, column] == parameters[:-1, column]
     first = np.flatnonzero(~follows)
     conveyors = np.array(parameters[first], dtype=np.float64)
@@ -103,15 +103,21 @@ NO_ATTRACTORS = AttractorTable(
 )
 
 
+def stack(columns: Sequence[np.ndarray]) -> np.ndarray:
+    """Columns of several tables below each other; a table without rows fits any number of harmonics."""
+    return np.concatenate([column for column in columns if len(column)] or columns[:1])
+
+
 def append_row(table: AttractingOrbits | ChaoticSets, *row: np.ndarray | float) -> AttractingOrbits | ChaoticSets:
     """The table with one more row, from its values in the order of the fields."""
-    return type(table)(*(np.append(column, [value], axis=0) for column, value in zip(table, row, strict=True)))
+    columns = zip(table, row, strict=True)
+    return type(table)(*(stack([column, np.array([value], dtype=column.dtype)]) for column, value in columns))
 
 
 def concatenate(parts: list[AttractorTable]) -> AttractorTable:
     """The tables of several conveyors below each other."""
     orbits, chaotic = zip(*parts, strict=True)
     return AttractorTable(
-        AttractingOrbits(*map(np.concatenate, zip(*orbits, strict=True))),
-        ChaoticSets(*map(np.concatenate, zip(*chaotic, strict=True))),
+        AttractingOrbits(*map(stack, zip(*orbits, strict=True))),
+        ChaoticSets(*map(stack, zip(*chaotic, strict=True))),
     )

@@ -12,11 +12,11 @@ import numpy as np
 
 from ...solver import contact, contact_lanes, vertical
 from ...solver.contact_lanes import COSINE, END, LANES, LENGTH, NONE, ROWS, SINE, STEPS, TIME, V, W
-from ...solver.contact_law import FIRST
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
 from ...solver.trajectory import BEGIN_OF_CYCLE, MAX_PIECES, time_to_next_cycle
 from ...solver.vertical import FLIGHT, GRAZE, IMPACT, LIMIT, LOST, Motion, Piece
+from ...solver.workspace import FIRST
 from ..stroboscopic_map import delta_and_v
 from . import convergence
 from .convergence import BEFORE_FIRST_CYCLE, FOLLOWED, GOES_ON, PAST

@@ -28,7 +28,7 @@ def sampled_initial_conditions(parameters: np.ndarray) -> np.ndarray:
     sequence.
     """
     c = contact.constants(as_rows(parameters), 1e-8)
-    fastest = math.pi * (c.gravity + c.a_z) / c.omega
+    fastest = math.pi * (c.gravity + c.bounds.lift) / c.omega
     highest = 0.5 * fastest * fastest / c.gravity
     golden = 1.324717957244746  # the real root of x³ = x + 1
     share = np.modf(np.arange(1, SAMPLES + 1)[:, None] * np.array([1.0 / golden, 1.0 / golden**2]))[0]

@@ -10,6 +10,7 @@ from ...solver import contact
 from ...solver.flight import Flight, next_impact
 from ...solver.jit import compiled
 from ...solver.model import VZ0, Z0
+from ...solver.plate import height
 from ...solver.vertical import begin, in_contact
 
 TIME, VELOCITY, PHASE = range(3)
@@ -32,16 +33,16 @@ def find_first_impacts(parameters):
     out = np.full((len(parameters), 3), np.nan)
     for i in range(parameters.shape[0]):
         c = contact.constants(parameters[i], 1e-10)
-        height, theta, vz = c.a_z / (c.omega * c.omega), c.psi0, parameters[i, VZ0]
+        theta, vz = c.psi0, parameters[i, VZ0]
         q, rate = begin(c, parameters[i, Z0], vz, theta)
         if q < 0.0:
             continue
         t1 = 0.0
         if not in_contact(c, q, rate, theta):
-            z = q - height * math.cos(theta)
+            z = q + height(c, math.sin(theta), math.cos(theta))
             # After this time the part would be below the lowest point of the plate.
-            longest = 1.1 * (vz + math.sqrt(vz * vz + 2.0 * c.gravity * (z + height))) / c.gravity
-            t1, _ = next_impact(Flight(z, vz, theta, c.gravity, c.a_z, c.omega), q, rate, longest)
+            longest = 1.1 * (vz + math.sqrt(vz * vz + 2.0 * c.gravity * (z + c.bounds.height))) / c.gravity
+            t1, _ = next_impact(Flight(z, vz, theta, c), q, rate, longest)
         out[i, TIME], out[i, VELOCITY], out[i, PHASE] = t1, vz - c.gravity * t1, theta + c.omega * t1
     return out
 

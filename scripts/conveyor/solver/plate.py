@@ -1,0 +1,400 @@
+"""The plate: no other module of the solver knows how it moves.
+
+With θ = ωt + ψ0 and the orders k of the harmonics, the accelerations of the plate normal to the track and along it are
+
+    z̈_s = a_z [cos θ + Σ normal_k cos(kθ + normal_phase_k)],
+    ẍ_s = a_x [cos(θ + ε) + Σ along_k cos(kθ + along_phase_k)].
+
+Velocities and positions are the integrals without a mean. Functions of a phase take its sine and cosine, from which
+those of kθ follow by the angle addition theorem. `c` is contact.Constants. A plate without harmonics, which is the
+paper's, costs one comparison in each function.
+"""
+
+import math
+from collections import namedtuple
+from collections.abc import Sequence
+
+import numpy as np
+
+from .jit import compiled, compiled_inline, compiled_into_callers, copy, number_at
+from .polynomial import ORDER, SIZE, place
+from .unrolled import product, total
+from .workspace import ALONG, COSINE, HARMONICS, LIFT_W, NORMAL, SCRATCH, SINE, T, V, W
+
+# A harmonic in packed parameters: its order k and, as shares of the fundamental's amplitudes, the coefficients of
+# cos kθ and -sin kθ in the accelerations along the track and normal to it.
+K, ALONG_COSINE, ALONG_SINE, NORMAL_COSINE, NORMAL_SINE = range(5)
+NUMBERS = 5
+
+# The search for the largest downward acceleration: phases of a scan, and scans, each of the neighbourhood of the last.
+PHASES, FINER = 4096, 3
+
+# What harmonics add to position, velocity and acceleration normal to the track (z, vz, az) and along it (x, vx, ax), as
+# shares of the fundamental's amplitudes; the position with the opposite sign.
+Sums = namedtuple("Sums", "z vz az x vx ax")
+# Bounds: on position (m), acceleration (m/s²) and its rate (m/s³) normal to the track; on acceleration and its rate
+# along the track, as multiples of a_x and a_x ω.
+Bounds = namedtuple("Bounds", "height lift jerk pull pull_rate")
+
+
+@compiled_inline
+def multiple(order, sine, cosine):
+    """Sine and cosine of a multiple of a phase."""
+    s, c = sine, cosine
+    for _ in range(order - 1):
+        s, c = s * cosine + c * sine, c * cosine - s * sine
+    return s, c
+
+
+@compiled_inline
+def numbers(waves, stride, h):
+    """The numbers of harmonic h, in the order above.
+
+    waves, stride : address of the first number of the first harmonic, and the distance from one number to the next
+    """
+    first = h * NUMBERS
+    return (
+        number_at(waves, (first + K) * stride),
+        number_at(waves, (first + ALONG_COSINE) * stride),
+        number_at(waves, (first + ALONG_SINE) * stride),
+        number_at(waves, (first + NORMAL_COSINE) * stride),
+        number_at(waves, (first + NORMAL_SINE) * stride),
+    )
+
+
+@compiled_inline
+def numbers_of(c, h):
+    """The numbers of harmonic h of a conveyor."""
+    return numbers(c.waves, 1, h)
+
+
+@compiled_inline
+def sums(waves, stride, count, sine, cosine):
+    """The Sums at the phase with a sine and cosine, of `count` harmonics; `waves` and `stride` as in `numbers`."""
+    z = vz = az = x = vx = ax = 0.0
+    for h in range(count):
+        k, along_cosine, along_sine, normal_cosine, normal_sine = numbers(waves, stride, h)
+        s, c = multiple(int(k), sine, cosine)
+        wave, slope = normal_cosine * c - normal_sine * s, normal_cosine * s + normal_sine * c
+        z, vz, az = z + wave / (k * k), vz + slope / k, az + wave
+        wave, slope = along_cosine * c - along_sine * s, along_cosine * s + along_sine * c
+        x, vx, ax = x + wave / (k * k), vx + slope / k, ax + wave
+    return Sums(z, vz, az, x, vx, ax)
+
+
+@compiled_inline
+def has_harmonics(c):
+    """Whether the plate's motion has harmonics."""
+    return c.harmonics > 0
+
+
+@compiled_inline
+def sums_of(c, sine, cosine):
+    """The Sums of a conveyor at the phase with a sine and cosine."""
+    return sums(c.waves, 1, c.harmonics, sine, cosine)
+
+
+@compiled
+def bounds(harmonics, a_z, omega):
+    """The Bounds of the plate's motion."""
+    z = normal = jerk = along = rate = 1.0
+    for h in range(0, harmonics.size, NUMBERS):
+        k = harmonics[h + K]
+        share = math.hypot(harmonics[h + NORMAL_COSINE], harmonics[h + NORMAL_SINE])
+        z, normal, jerk = z + share / (k * k), normal + share, jerk + k * share
+        share = math.hypot(harmonics[h + ALONG_COSINE], harmonics[h + ALONG_SINE])
+        along, rate = along + share, rate + k * share
+    return Bounds(a_z / (omega * omega) * z, a_z * normal, a_z * omega * jerk, along, rate)
+
+
+@compiled_inline
+def height(c, sine, cosine):
+    """Position normal to the track, m."""
+    shape = cosine
+    if has_harmonics(c):
+        shape = shape + sums_of(c, sine, cosine).z
+    return -(c.a_z / (c.omega * c.omega) * shape)
+
+
+@compiled_inline
+def rise(c, sine, cosine):
+    """Velocity normal to the track, m/s."""
+    shape = sine
+    if has_harmonics(c):
+        shape = shape + sums_of(c, sine, cosine).vz
+    return c.a_z / c.omega * shape
+
+
+@compiled
+def height_and_rise(c, sine, cosine):
+    """Position (m) and velocity (m/s) normal to the track, for callers in Python."""
+    return height(c, sine, cosine), rise(c, sine, cosine)
+
+
+@compiled_inline
+def lift(c, sine, cosine):
+    """Acceleration normal to the track, m/s²."""
+    shape = cosine
+    if has_harmonics(c):
+        shape = shape + sums_of(c, sine, cosine).az
+    return c.a_z * shape
+
+
+@compiled_inline
+def shapes(c, sine, cosine):
+    """Position and velocity normal to the track, divided by -a_z/ω² and a_z/ω."""
+    if has_harmonics(c):
+        added = sums_of(c, sine, cosine)
+        return cosine + added.z, sine + added.vz
+    return cosine, sine
+
+
+@compiled_inline
+def surface(c, sine, cosine):
+    """Height (m) and its rate (m/s), for the motion along the track.
+
+    The last bit of the height differs from `height`, because it is divided by ω twice. Results that have been published
+    with the one or the other keep their digits.
+    """
+    speed_z = c.a_z / c.omega
+    z, vz = shapes(c, sine, cosine)
+    return -speed_z / c.omega * z, speed_z * vz
+
+
+@compiled_inline
+def rise_between(c, from_sine, from_cosine, sine, cosine):
+    """Change of the velocity normal to the track (m/s) from one phase to another."""
+    turn = sine - from_sine
+    if has_harmonics(c):
+        turn += sums_of(c, sine, cosine).vz - sums_of(c, from_sine, from_cosine).vz
+    return c.a_z / c.omega * turn
+
+
+@compiled
+def sums_at(harmonics, phases):
+    """The Sums, float64, shape (n, 6), of packed harmonics, shape (n, 5 h), at phases (rad), shape (n,)."""
+    found, count = np.empty((len(phases), 6)), harmonics.shape[1] // NUMBERS
+    for i in range(len(phases)):
+        waves = np.ascontiguousarray(harmonics[i])
+        copy(found[i], sums(waves.ctypes.data, 1, count, math.sin(phases[i]), math.cos(phases[i])))
+    return found
+
+
+def heights(harmonics: np.ndarray, stroke: np.ndarray, phases: np.ndarray) -> np.ndarray:
+    """Height of the plate (m), shape (n,), for packed harmonics, shape (n, 5 h), strokes a_z/ω² and phases."""
+    shape = np.cos(phases)
+    if harmonics.shape[1] > 0:
+        shape = shape + Sums(*sums_at(harmonics, phases).T).z
+    return -(stroke * shape)
+
+
+def largest_fall(harmonics: Sequence[float]) -> float:
+    """The largest downward acceleration of the plate as a share of a_z, for the packed numbers of harmonics."""
+    if len(harmonics) == 0:
+        return 1.0
+    waves, centre, width = np.array(harmonics, dtype=np.float64), math.pi, math.pi
+    for _ in range(FINER):
+        phases = np.linspace(centre - width, centre + width, PHASES)
+        falls = -np.cos(phases) - Sums(*sums_at(np.tile(waves, (PHASES, 1)), phases).T).az
+        centre, width = phases[np.argmax(falls)], 2.0 * width / PHASES
+    return float(falls.max())
+
+
+def motion(a_x: float, a_z: float, omega: float, shift: float, harmonics: np.ndarray, phase: np.ndarray) -> dict:
+    """Position and velocity along the track, x and vx, and normal to it, z and vz (m, m/s), at phases (rad)."""
+    added = sums_at(np.tile(harmonics, (phase.size, 1)), np.ravel(phase))
+    added = Sums(*added.T.reshape(6, *phase.shape))
+    return {
+        "x": -(a_x / omega**2) * (np.cos(phase + shift) + added.x),
+        "vx": (a_x / omega) * (np.sin(phase + shift) + added.vx),
+        "z": -(a_z / omega**2) * (np.cos(phase) + added.z),
+        "vz": (a_z / omega) * (np.sin(phase) + added.vz),
+    }
+
+
+@compiled_inline
+def ahead(c, sine, cosine):
+    """Sine and cosine of the phase of the fundamental along the track, θ + ε."""
+    return sine * c.cos_shift + cosine * c.sin_shift, cosine * c.cos_shift - sine * c.sin_shift
+
+
+@compiled_inline
+def speed(c, sine, cosine):
+    """Velocity along the track, m/s."""
+    shape = ahead(c, sine, cosine)[0]
+    if has_harmonics(c):
+        shape = shape + sums_of(c, sine, cosine).vx
+    return c.a_x / c.omega * shape
+
+
+@compiled_inline
+def speed_between(c, from_sine, from_cosine, sine, cosine):
+    """Change of the velocity along the track (m/s) from one phase to another."""
+    turn = ahead(c, sine, cosine)[0] - ahead(c, from_sine, from_cosine)[0]
+    if has_harmonics(c):
+        turn += sums_of(c, sine, cosine).vx - sums_of(c, from_sine, from_cosine).vx
+    return c.a_x / c.omega * turn
+
+
+@compiled_inline
+def path_between(c, from_sine, from_cosine, sine, cosine):
+    """Distance along the track (m) from one phase to another."""
+    turn = ahead(c, sine, cosine)[1] - ahead(c, from_sine, from_cosine)[1]
+    if has_harmonics(c):
+        turn += sums_of(c, sine, cosine).x - sums_of(c, from_sine, from_cosine).x
+    return -(c.a_x / c.omega / c.omega * turn)
+
+
+@compiled_inline
+def pull_share(c, sine, cosine):
+    """Acceleration along the track, divided by a_x."""
+    shape = ahead(c, sine, cosine)[1]
+    if has_harmonics(c):
+        shape = shape + sums_of(c, sine, cosine).ax
+    return shape
+
+
+@compiled_inline
+def keeps_direction(c, begin, end, turn):
+    """Whether the acceleration along the track keeps its sign while the phase advances by `turn` (rad).
+
+    begin, end : `pull_share` at both ends
+
+    A fundamental alone keeps its sign where it has it at both ends of less than half a cycle.
+    """
+    if has_harmonics(c):
+        return begin * end > 0.0 and abs(begin) + abs(end) > c.bounds.pull_rate * turn
+    return begin * end > 0.0
+
+
+def recurrence(n: int, *, harmonics: bool) -> list[str]:
+    """Source of the coefficients n of LIFT_W (x) and n + 1 of cosine (c) and sine (s), from w and coefficients n.
+
+    With `harmonics`, also of their rows and of NORMAL and ALONG, which are in memory because their number is not known.
+    """
+    lines = [
+        f"x{n} = {product('c', 'w', n)}",
+        f"sine_w = {product('s', 'w', n)}",
+        f"turn = omega * {1.0 / (n + 1)!r}",
+        f"c{n + 1} = -turn * sine_w",
+        f"s{n + 1} = turn * x{n}",
+    ]
+    if not harmonics:
+        return lines
+    cosine_w, sine_w = (
+        total([(f"series[{row} + np.uint64({k})]", f"w{n - k}") for k in range(n + 1)]) for row in ("cosine", "sine")
+    )
+    return [
+        *lines,
+        f"pull_w = x{n} * c.cos_shift - sine_w * c.sin_shift",
+        "for h in range(c.harmonics):",
+        "    cosine, sine = harmonic_rows(h)",
+        f"    cosine_w, sine_w = {cosine_w}, {sine_w}",
+        "    k, along_cosine, along_sine, normal_cosine, normal_sine = numbers_of(c, h)",
+        f"    series[cosine + np.uint64({n + 1})] = -turn * k * sine_w",
+        f"    series[sine + np.uint64({n + 1})] = turn * k * cosine_w",
+        f"    x{n} += normal_cosine * cosine_w - normal_sine * sine_w",
+        "    pull_w += along_cosine * cosine_w - along_sine * sine_w",
+        f"series[at + np.uint64({NORMAL + n + 1})] = turn * x{n}",
+        f"series[at + np.uint64({ALONG + n + 1})] = turn * pull_w",
+    ]
+
+
+@compiled_inline
+def harmonic_rows(h):
+    """The rows of a workspace for cosine and sine of harmonic h."""
+    first = np.uint64(HARMONICS + 2 * h * SIZE)
+    return first, first + np.uint64(SIZE)
+
+
+@compiled_into_callers
+def turned(series, w, cosine, sine, n):
+    """Coefficients n of cosine and sine times w, from their rows and the row of w."""
+    cosine_w = sine_w = 0.0
+    for k in range(n + 1):
+        later = series[place(w, n - k)]
+        cosine_w += series[place(cosine, k)] * later
+        sine_w += series[place(sine, k)] * later
+    return cosine_w, sine_w
+
+
+@compiled_into_callers
+def begin_series(c, series, at, sine, cosine):
+    """Write the first coefficients of a step's rows for the plate."""
+    series[at + SINE], series[at + COSINE] = sine, cosine
+    if has_harmonics(c):
+        added = sums_of(c, sine, cosine)
+        series[at + NORMAL] = sine + added.vz
+        series[at + ALONG] = ahead(c, sine, cosine)[0] + added.vx
+        for h in range(c.harmonics):
+            s, c_k = multiple(int(numbers_of(c, h)[K]), sine, cosine)
+            rows = harmonic_rows(h)
+            series[rows[0]], series[rows[1]] = c_k, s
+
+
+@compiled_into_callers
+def extend_series(c, series, at, n):
+    """Write coefficient n of LIFT_W and n + 1 of the plate's other rows, from the row W and coefficients up to n."""
+    inverse = 1.0 / (n + 1)
+    lift_w, sine_w = turned(series, at + W, at + COSINE, at + SINE, n)
+    series[at + COSINE + n + 1] = -c.omega * sine_w * inverse
+    series[at + SINE + n + 1] = c.omega * lift_w * inverse
+    if has_harmonics(c):
+        pull_w = lift_w * c.cos_shift - sine_w * c.sin_shift
+        for h in range(c.harmonics):
+            cosine, sine = harmonic_rows(h)
+            cosine_w, sine_w = turned(series, at + W, cosine, sine, n)
+            k, along_cosine, along_sine, normal_cosine, normal_sine = numbers_of(c, h)
+            turn = k * c.omega * inverse
+            series[place(cosine, n + 1)], series[place(sine, n + 1)] = -turn * sine_w, turn * cosine_w
+            lift_w += normal_cosine * cosine_w - normal_sine * sine_w
+            pull_w += along_cosine * cosine_w - along_sine * sine_w
+        series[at + NORMAL + n + 1] = c.omega * lift_w * inverse
+        series[at + ALONG + n + 1] = c.omega * pull_w * inverse
+    series[at + LIFT_W + n] = lift_w
+
+
+@compiled_into_callers
+def series_length(c, series, at):
+    """The s up to which the last terms of a step's velocities of the plate are below the tolerance."""
+    last = max(abs(series[at + NORMAL + ORDER]), abs(series[at + ALONG + ORDER]))
+    return (c.tolerance / last) ** (1.0 / ORDER) if last > 0.0 else math.inf
+
+
+@compiled_into_callers
+def expand_velocities(c, series, at, along, normal, speed, time):
+    """Fill the row SCRATCH with the series of along ẋ_s + normal ż_s + speed v + time t along a step."""
+    straight, turned_part = along * c.a_x / c.omega, 0.0
+    if has_harmonics(c):
+        for n in range(ORDER + 1):
+            plate = straight * series[place(at + ALONG, n)] + normal * c.a_z / c.omega * series[place(at + NORMAL, n)]
+            series[place(SCRATCH, n)] = plate + speed * series[place(at + V, n)] + time * series[place(at + T, n)]
+        return
+    straight, turned_part = straight * c.cos_shift + normal * c.a_z / c.omega, straight * c.sin_shift
+    for n in range(ORDER + 1):
+        velocity = straight * series[place(at + SINE, n)] + speed * series[place(at + V, n)]
+        series[place(SCRATCH, n)] = velocity + time * series[place(at + T, n)]
+    if turned_part != 0.0:  # a loop of its own, because the paper's conveyor does not need it
+        for n in range(ORDER + 1):
+            series[place(SCRATCH, n)] += turned_part * series[place(at + COSINE, n)]
+
+
+@compiled_into_callers
+def add_pull(c, series, at, direction, slack):
+    """Add the series of w (direction ẍ_s + slack) along a step to the row SCRATCH.
+
+    The product of w and an acceleration is the derivative of the velocity in the variable s.
+    """
+    pull = direction * c.a_x
+    if has_harmonics(c):
+        for n in range(ORDER):
+            plate = pull / c.omega * (n + 1) * series[place(at + ALONG, n + 1)]
+            series[place(SCRATCH, n)] += plate + slack * series[place(at + W, n)]
+        return
+    straight, turned_part = pull * c.cos_shift, pull * c.sin_shift / c.omega
+    for n in range(ORDER):
+        total = series[place(SCRATCH, n)] + straight * series[place(at + LIFT_W, n)]
+        series[place(SCRATCH, n)] = total + slack * series[place(at + W, n)]
+    if turned_part != 0.0:
+        for n in range(ORDER):
+            series[place(SCRATCH, n)] += turned_part * (n + 1) * series[place(at + COSINE, n + 1)]

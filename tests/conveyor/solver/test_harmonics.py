@@ -1,0 +1,336 @@
+"""Plates with harmonics: other integrators, balances, the properties of every motion, and who refuses them."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from conveyor import (
+    Conveyor,
+    Harmonic,
+    Start,
+    classify,
+    conveyor_and_start,
+    conveyor_motion,
+    find_attractors,
+    groups_of,
+    lyapunov_spectrum,
+    parameter_table,
+    periodic_orbit,
+    plate_heights,
+    simulate,
+    sweep,
+    throw_number,
+    transits,
+)
+from conveyor.analysis import stroboscopic_map
+from conveyor.methods import rigid_part_motion
+from conveyor.solver.model import pack
+
+TWO = (Harmonic(2, 0.1, 1.0, 0.05, -2.0), Harmonic(3, 0.05, 0.3, 0.1, 0.4))
+
+
+def random_conveyor(generator: np.random.Generator, **changed) -> Conveyor:
+    """A conveyor with up to four harmonics."""
+    orders = generator.choice(np.arange(2, 9), generator.integers(1, 5), replace=False)
+    waves = [(generator.uniform(0.0, 0.3), generator.uniform(-3.0, 3.0)) for _ in range(2 * len(orders))]
+    harmonics = [Harmonic(int(order), *waves[2 * k], *waves[2 * k + 1]) for k, order in enumerate(orders)]
+    values = {
+        "acceleration": generator.uniform(20.0, 60.0),
+        "angle": generator.uniform(0.15, 0.4),
+        "psi0": generator.uniform(0.0, 6.0),
+        "phase_shift": generator.uniform(-1.0, 1.0),
+        "inclination": generator.uniform(-0.1, 0.1),
+    }
+    return Conveyor(**values | changed, harmonics=harmonics)
+
+
+def accelerations(conveyor: Conveyor, t: float) -> tuple[float, float]:
+    """The plate's accelerations normal to the track and along it (m/s²), from the definition of the harmonics."""
+    theta = 2.0 * math.pi * conveyor.frequency * t + conveyor.psi0
+    normal = math.cos(theta) + sum(h.normal * math.cos(h.order * theta + h.normal_phase) for h in conveyor.harmonics)
+    along = math.cos(theta + conveyor.phase_shift)
+    along += sum(h.along * math.cos(h.order * theta + h.along_phase) for h in conveyor.harmonics)
+    amplitude = conveyor.acceleration
+    return amplitude * math.sin(conveyor.angle) * normal, amplitude * math.cos(conveyor.angle) * along
+
+
+def plate_at(conveyor: Conveyor, t: float) -> tuple[float, float, float]:
+    """Height and velocity of the plate normal to the track, and its velocity along it (m, m/s)."""
+    omega = 2.0 * math.pi * conveyor.frequency
+    theta = omega * t + conveyor.psi0
+    z, vz, vx = math.cos(theta), math.sin(theta), math.sin(theta + conveyor.phase_shift)
+    for order, along, along_phase, normal, normal_phase in conveyor.harmonics:
+        z += normal / order**2 * math.cos(order * theta + normal_phase)
+        vz += normal / order * math.sin(order * theta + normal_phase)
+        vx += along / order * math.sin(order * theta + along_phase)
+    a_z, a_x = conveyor.acceleration * math.sin(conveyor.angle), conveyor.acceleration * math.cos(conveyor.angle)
+    return -a_z / omega**2 * z, a_z / omega * vz, a_x / omega * vx
+
+
+def by_dop853(conveyor: Conveyor, z: float, times: np.ndarray) -> np.ndarray:
+    """x, ẋ, z and ż, shape (n, 4), by SciPy's DOP853, which stops where the equations of motion change."""
+    stiffness, damping = conveyor.stiffness / conveyor.mass, conveyor.damping / conveyor.mass
+    gravity = conveyor.gravity * math.cos(conveyor.inclination)
+    downhill = conveyor.gravity * math.sin(conveyor.inclination)
+
+    def force(t, y):
+        height, rise, _ = plate_at(conveyor, t)
+        return stiffness * max(height - y[2], 0.0) ** conveyor.exponent + damping * (rise - y[3])
+
+    def rates(t, y, touching, sigma):
+        push, pull = force(t, y) if touching else 0.0, accelerations(conveyor, t)[1]
+        return [y[1], pull if sigma == 0.0 else sigma * conveyor.friction * push - downhill, y[3], push - gravity]
+
+    def gap(t, y, *_):
+        return y[2] - plate_at(conveyor, t)[0]
+
+    def slip(t, y, *_):
+        return plate_at(conveyor, t)[2] - y[1]
+
+    def grip(t, y, *_):
+        return conveyor.friction * force(t, y) - abs(accelerations(conveyor, t)[1] + downhill)
+
+    gap.terminal = slip.terminal = grip.terminal = True
+    grip.direction = -1.0
+    begin, y, found = 0.0, np.array([0.0, 0.0, z, 0.0]), np.empty((len(times), 4))
+    touching, sigma = gap(0.0, y) <= 0.0, math.copysign(1.0, slip(0.0, y))
+    while begin < times[-1]:
+        gap.direction, slip.direction = 1.0 if touching else -1.0, -sigma
+        solved = solve_ivp(
+            *(rates, (begin, times[-1]), y, "DOP853"),
+            args=(touching, sigma),
+            events=(gap, grip if sigma == 0.0 else slip) if touching else gap,
+            rtol=2.3e-14,
+            atol=1e-17,
+            max_step=0.01 / conveyor.frequency,
+            dense_output=True,
+        )
+        inside = (times >= begin) & (times <= solved.t[-1])
+        if inside.any():
+            found[inside] = solved.sol(times[inside]).T
+        begin, y = solved.t[-1], solved.y[:, -1]
+        if solved.t_events[0].size:
+            touching = not touching
+            sigma = math.copysign(1.0, slip(begin, y))
+        elif touching and solved.t_events[1].size:
+            direction = math.copysign(1.0, accelerations(conveyor, begin)[1] + downhill)
+            sigma = direction if sigma == 0.0 or grip(begin, y) < 0.0 else 0.0
+    return found
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_another_integrator_agrees(seed):
+    generator = np.random.default_rng(seed)
+    exponent = [1.0, 1.5, 1.5, 2.2][seed % 4]
+    contact = {"exponent": exponent, "stiffness": 1500.0 if exponent == 1.0 else 5e5}
+    conveyor, times = random_conveyor(generator, **contact), np.linspace(0.0, 0.05, 201)
+    z = generator.uniform(2e-4, 1e-3)
+    found, expected = simulate(conveyor, Start(z=z), duration=0.05, tolerance=1e-13), by_dop853(conveyor, z, times)
+    assert found.impacts > 0
+    sample = found.sample(times)
+    for k, name in enumerate(("x", "vx", "z", "vz")):
+        assert np.abs(sample[name] - expected[:, k]).max() < 1e-9 * np.abs(expected[:, k]).max()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_runge_kutta_converges_to_a_part_that_rides(seed):
+    conveyor = random_conveyor(np.random.default_rng(seed), acceleration=12.0, angle=0.2)
+    height, rise, _ = plate_at(conveyor, 0.0)
+    start = Start(z=height - 6e-6, vz=rise)  # about as deep as at rest
+    exact = simulate(conveyor, start, duration=0.02, tolerance=1e-13)
+    assert exact.impacts == 0
+    errors = [
+        abs(simulate(conveyor, start, duration=0.02, method="rk4", step=step).vz_end - exact.vz_end)
+        for step in (4e-6, 2e-6, 1e-6)
+    ]
+    assert errors[2] < 1e-9 * abs(exact.vz_end)
+    assert errors[1] / errors[2] > 8.0 or errors[1] < 1e-13
+
+
+def test_energy_balance():
+    """Without damping, the plate's work is the gain of the energies of motion, height and spring."""
+    conveyor = Conveyor(acceleration=40.0, damping=0.0, harmonics=TWO)
+    run = simulate(conveyor, Start(z=3e-4), duration=0.05, tolerance=1e-13)
+    edges = np.concatenate([[0.0], np.unique(run.events["time"]), [0.05]])
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    times = (0.5 * (edges[1:] + edges[:-1])[:, None] + 0.5 * np.diff(edges)[:, None] * nodes).ravel()
+    sample, plate = run.sample(times), conveyor_motion(conveyor, times)
+    work = np.sum((0.5 * np.diff(edges)[:, None] * weights).ravel() * sample["contact_force"] * plate["vz"])
+    ends, plate = run.sample(np.array([0.0, 0.05])), conveyor_motion(conveyor, np.array([0.0, 0.05]))
+    depth = np.maximum(plate["z"] - ends["z"], 0.0)
+    energy = conveyor.mass * (0.5 * ends["vz"] ** 2 + conveyor.gravity * ends["z"])
+    energy += conveyor.stiffness / 2.5 * depth**2.5
+    assert work == pytest.approx(energy[1] - energy[0], rel=1e-7)
+
+
+def test_plate_moves_as_defined():
+    """Velocities and accelerations are derivatives of the positions and velocities, which have no mean."""
+    conveyor = random_conveyor(np.random.default_rng(7))
+    times, h = np.arange(500) / 500 / conveyor.frequency, 1e-6
+    plate, before, after = (conveyor_motion(conveyor, times + shift) for shift in (0.0, -h, h))
+    expected = np.array([accelerations(conveyor, t) for t in times]).T
+    for name, acceleration in zip("zx", expected, strict=True):
+        assert np.allclose((after[name] - before[name]) / (2.0 * h), plate[f"v{name}"], atol=1e-6)
+        assert np.allclose((after[f"v{name}"] - before[f"v{name}"]) / (2.0 * h), acceleration, atol=1e-3)
+        assert abs(plate[name].mean()) < 1e-15 and abs(plate[f"v{name}"].mean()) < 1e-13
+    assert plate_heights(parameter_table(conveyor, z0=[0.0]))[0] == pytest.approx(plate["z"][0], rel=1e-14)
+
+
+def test_harmonic_without_amplitude_changes_nothing():
+    conveyor = Conveyor(acceleration=45.0), Conveyor(acceleration=45.0, harmonics=[{"order": 2}])
+    plain, other = (simulate(one, Start(z=3e-4), duration=0.1, tolerance=1e-13) for one in conveyor)
+    assert plain.impacts == other.impacts > 3
+    assert other.x_end == pytest.approx(plain.x_end, rel=1e-11)
+    assert other.max_gap == pytest.approx(plain.max_gap, rel=1e-12)
+
+
+@st.composite
+def harmonics(draw):
+    orders = draw(st.lists(st.integers(2, 20), min_size=1, max_size=4, unique=True))
+    share, phase = st.floats(0.0, 1.5), st.floats(-4.0, 4.0)
+    return [Harmonic(order, draw(share), draw(phase), draw(share), draw(phase)) for order in orders]
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    waves=harmonics(),
+    acceleration=st.floats(0.0, 150.0),
+    angle=st.floats(0.0, 0.5 * math.pi),
+    exponent=st.sampled_from([1.0, 1.5, 2.3]),
+    tension=st.sampled_from(["allow", "frictionless", "clip"]),
+    phase=st.floats(-3.0, 3.0),
+    z=st.one_of(st.just("conveyor"), st.floats(-1e-5, 3e-3)),
+    psi0=st.floats(0.0, 6.0),
+)
+def test_no_motion_fails(waves, acceleration, angle, exponent, tension, phase, z, psi0):
+    """Every run ends well, never falls through the plate, and knows its largest gap."""
+    stiffness = 1500.0 if exponent == 1.0 else 5e5
+    conveyor = Conveyor(
+        acceleration, angle, psi0=psi0, exponent=exponent, stiffness=stiffness, tension=tension, harmonics=waves
+    )
+    conveyor = Conveyor(**{name: getattr(conveyor, name) for name in conveyor.__slots__} | {"phase_shift": phase})
+    run = simulate(conveyor, Start(z=z), duration=0.1)
+    assert run.status == "ok"
+    times = np.linspace(0.0, 0.1, 3001)
+    sample, plate = run.sample(times), conveyor_motion(conveyor, times)
+    assert all(np.isfinite(values).all() for values in sample.values())
+    gap = sample["z"] - plate["z"]
+    assert gap.max() <= run.max_gap + 1e-12
+    assert (sample["contact_force"][gap > 1e-12] == 0.0).all()
+    assert gap.min() > -3e-3
+
+
+def test_many_runs_agree_with_single_runs():
+    conveyor, heights = Conveyor(acceleration=42.0, harmonics=TWO), [0.0, 2e-4, 4e-4]
+    runs = sweep(parameter_table(conveyor, z0=heights), duration=0.2)
+    for z, end, velocity in zip(heights, runs.z_end, runs.mean_velocity, strict=True):
+        one = simulate(conveyor, Start(z=z), duration=0.2)
+        assert (one.z_end, one.mean_velocity()) == (end, velocity)
+
+
+def test_fixed_steps_approach_the_events():
+    conveyor = Conveyor(acceleration=40.0, harmonics=TWO, phase_shift=0.3)
+    exact = simulate(conveyor, Start(z=3e-4), duration=0.04, tolerance=1e-12)
+    for method in ("euler", "semi_implicit_euler", "rk4"):
+        errors = [
+            abs(simulate(conveyor, Start(z=3e-4), duration=0.04, method=method, step=step).x_end - exact.x_end)
+            for step in (4e-6, 1e-6, 2.5e-7)
+        ]
+        assert errors[2] < 3e-3 * abs(exact.x_end)
+        assert errors[2] < 0.5 * errors[0]
+
+
+def test_transit_agrees_with_a_run():
+    conveyor = Conveyor(acceleration=60.0, harmonics=TWO)
+    found = transits(parameter_table(conveyor, z0=[3e-4]), np.array([0.03]), np.array([3.0]), begin=0.1)
+    (arrival,) = found["arrival"][0]
+    run = simulate(conveyor, Start(z=3e-4), duration=3.0)
+    assert run.sample(np.array([arrival]))["x"][0] == pytest.approx(0.03, rel=2e-3)
+
+
+def test_linearisation_agrees_with_differences():
+    conveyor = Conveyor(acceleration=40.0, harmonics=TWO)
+    orbit = periodic_orbit(conveyor, Start(z=3e-4))
+    assert orbit.period == 1 and orbit.impacts > 0
+    parameters = pack(conveyor, Start())[None]
+    _, matrices, features = stroboscopic_map.monodromy(parameters[0], 1e-12, orbit.state.copy(), 1, 0.0)
+    damping = conveyor.damping / conveyor.mass
+    assert np.linalg.det(matrices[0]) == pytest.approx(math.exp(-damping * features[0, 1]), rel=1e-8)
+    assert np.prod(orbit.multipliers) == pytest.approx(np.linalg.det(matrices[0]), rel=1e-6)
+    images = []
+    for shift in ((1e-8, 0.0), (-1e-8, 0.0)):
+        state = orbit.state + shift
+        stroboscopic_map.follow_map(parameters[0], 1e-13, state, 1)
+        images.append(state)
+    difference = (images[0] - images[1]) / 2e-8
+    assert np.allclose(difference, matrices[0][:, 0], rtol=1e-4)
+
+
+def test_labels_and_exponents():
+    conveyor = Conveyor(harmonics=TWO)
+    found = classify(parameter_table(conveyor, acceleration=[20.0, 40.0, 90.0], z0=3e-4))
+    assert found.state.tolist() == ["first", "second", "chaos"]
+    table = parameter_table(conveyor, acceleration=[40.0, 90.0], z0=3e-4)
+    exponents = lyapunov_spectrum(table, transient=100, cycles=50, blocks=4)
+    assert exponents.lambda_1[0] < 0.0 < exponents.lambda_1[1]
+    total = -conveyor.damping / conveyor.mass * exponents.contact_fraction
+    assert np.allclose(exponents.lambda_1 + exponents.lambda_2, total, rtol=1e-6)
+
+
+def test_known_attractors_give_the_labels_of_single_searches():
+    rows = parameter_table(Conveyor(acceleration=40.0, harmonics=TWO), z0=np.linspace(0.0, 5e-4, 40))
+    attractors = find_attractors(rows[:1], cycles=300)
+    assert len(attractors.orbits.periods) >= 2
+    found, alone = (classify(rows, cycles=300, tolerance=1e-8, **known) for known in ({"attractors": attractors}, {}))
+    assert found.state.tolist() == alone.state.tolist()
+    assert len(set(found.state)) == 2
+
+
+def test_throw_number_is_the_largest_downward_acceleration():
+    conveyor = random_conveyor(np.random.default_rng(3), inclination=0.1)
+    times = np.linspace(0.0, 1.0 / conveyor.frequency, 20_001)
+    fall = max(-accelerations(conveyor, t)[0] for t in times) / (conveyor.gravity * math.cos(0.1))
+    model = {name: getattr(conveyor, name) for name in ("angle", "gravity", "inclination", "harmonics")}
+    assert throw_number(conveyor.acceleration, **model) == pytest.approx(fall, rel=1e-6)
+
+
+def test_packed_parameters_keep_harmonics():
+    conveyor = random_conveyor(np.random.default_rng(5), static_friction=0.2)
+    again, _ = conveyor_and_start(parameter_table(conveyor))
+    assert [h.order for h in again.harmonics] == sorted(h.order for h in conveyor.harmonics)
+    assert np.allclose(again.harmonics, conveyor.harmonics, rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("harmonic", "message"),
+    [
+        ({"order": 1}, "whole number in \\[2, 100\\]"),
+        ({"order": 2.0}, "whole number"),
+        ({"order": 2, "normal": -0.1}, "normal = -0.1"),
+        ({"order": 2, "phase": 0.1}, "must have an order"),
+        ({"normal": 0.1}, "must have an order"),
+        ({"order": 2, "along": math.nan}, "along = nan"),
+    ],
+)
+def test_bad_harmonics_are_refused(harmonic, message):
+    with pytest.raises(ValueError, match=message):
+        Conveyor(harmonics=[harmonic])
+
+
+def test_orders_are_distinct():
+    with pytest.raises(ValueError, match="each once"):
+        Conveyor(harmonics=[{"order": 2}, {"order": 2, "normal": 0.1}])
+
+
+def test_what_cannot_take_harmonics_says_so():
+    parameters = parameter_table(Conveyor(harmonics=TWO))
+    for refuses in (
+        lambda: rigid_part_motion.run(parameters, 0.1, 0.5),
+        lambda: groups_of(parameters),
+    ):
+        with pytest.raises(ValueError, match="no harmonics"):
+            refuses()
