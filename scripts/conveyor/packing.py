@@ -174,3 +174,9 @@ def plate_heights(parameters: np.ndarray) -> np.ndarray:
     rows = as_rows(parameters)
     stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * np.pi * rows[:, FREQUENCY]) ** 2
     return plate.heights(rows[:, len(PARAMETERS) :], stroke, rows[:, PSI0])
+
+
+def refuse_harmonics(parameters: np.ndarray, what: str) -> None:
+    """ValueError if a table or a row of it has harmonics of the plate, which `what` does not take."""
+    if as_rows(parameters).shape[-1] > len(PARAMETERS):
+        raise ValueError(f"{what} takes no harmonics of the plate; leave harmonics out of the model")

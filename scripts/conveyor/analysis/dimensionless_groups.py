@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..packing import as_rows
+from ..packing import as_rows, refuse_harmonics
 from ..solver import model
 from ..solver.model import PARAMETERS
 
@@ -47,7 +47,7 @@ def normal_gravity(parameters: np.ndarray) -> float:
 def groups_of(parameters: np.ndarray) -> Groups:
     """The groups of one conveyor, a row of a table of parameters."""
     parameters = as_rows(parameters)
-    model.refuse_harmonics(parameters, "a motion that depends on dimensionless groups alone")
+    refuse_harmonics(parameters, "a motion that depends on dimensionless groups alone")
     omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
     mass, exponent = parameters[model.MASS], parameters[model.EXPONENT]
     return Groups(

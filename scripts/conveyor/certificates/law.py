@@ -64,8 +64,11 @@ def read_angle(angle: float) -> arb:
 def law_of(conveyor: Conveyor) -> Law:
     """The law of a conveyor; each of its floats stands for its shortest decimal.
 
-    ValueError for a treatment of tension or an exponent with which the equations are not polynomial in w.
+    ValueError for harmonics, and for a treatment of tension or an exponent with which the equations are not polynomial
+    in w.
     """
+    if conveyor.harmonics:
+        raise ValueError("certificates are for plates without harmonics")
     if conveyor.tension != "allow":
         raise ValueError(f"certificates are for tension = allow, not {conveyor.tension}")
     twice = round(2.0 * conveyor.exponent)

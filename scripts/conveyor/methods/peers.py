@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..packing import as_rows
+from ..packing import as_rows, refuse_harmonics
 from ..parameters import LAST
 from ..solver import model
 from . import cyrk_peer, heyoka_peer, scipy_peer, sundials_peer
@@ -148,6 +148,7 @@ def run(
         raise ValueError(f"{integrator!r} with {treatment!r} is none of {tuple(RIVALS)} with {TREATMENTS}")
     if integrator == HEYOKA and treatment != "modes":
         raise ValueError(f"heyoka handles events by modes, not by {treatment}")
+    refuse_harmonics(parameters, integrator)
     parameters = as_rows(parameters)
     trajectory = Trajectory(parameters, integrator, max_evaluations, np.asarray(times, dtype=np.float64))
 

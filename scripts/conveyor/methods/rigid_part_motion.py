@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arguments import LONGEST, check_array, check_time
-from ..packing import as_rows
+from ..packing import as_rows, refuse_harmonics
 from ..parameters import LAST
 from ..solver import contact, friction, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
@@ -217,7 +217,7 @@ class Summary(NamedTuple):
 
 def _follow(parameters, restitution, times, n_impacts=0):
     """Call `follow` with new arrays. Returns its result, the samples (NaN after an early end) and the impacts."""
-    model.refuse_harmonics(parameters, "the rigid part")
+    refuse_harmonics(parameters, "the rigid part")
     speeds, coefficients = ([0.0], [restitution]) if np.isscalar(restitution) else restitution
     speeds = np.asarray(speeds, dtype=np.float64)
     coefficients = check_array("restitution", coefficients, 0.0, 1.0)

@@ -190,12 +190,6 @@ def unpack(parameters: np.ndarray) -> tuple[Conveyor, Start]:
     return conveyor, Start("conveyor" if math.isnan(z0) else z0, vz0)
 
 
-def refuse_harmonics(parameters: np.ndarray, what: str) -> None:
-    """ValueError if packed parameters, shape (..., 16 + 5 h), have harmonics, which `what` does not take."""
-    if parameters.shape[-1] > len(PARAMETERS):
-        raise ValueError(f"{what} takes no harmonics of the plate; leave harmonics out of the model")
-
-
 def conveyor_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarray]:
     """Position and velocity of the plate (Eqs. 3, 4, 10) at `times` (s): x, z in m; vx, vz in m/s; same shape."""
     omega = 2.0 * math.pi * conveyor.frequency
