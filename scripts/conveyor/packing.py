@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arguments import HIGH, LOW, MAY_BE_NAN, check_numbers, check_parameters, check_type
+from .elementary import cos, sin
 from .parameters import HARMONIC, PARAMETERS, TENSION_MODES, UNITS
 from .solver import plate
 from .solver.model import (
@@ -171,8 +172,11 @@ def plate_heights(parameters: np.ndarray) -> np.ndarray:
     array([False,  True])
     """
     rows = as_rows(parameters)
-    stroke = rows[:, ACCELERATION] * np.sin(rows[:, ANGLE]) / (2.0 * np.pi * rows[:, FREQUENCY]) ** 2
-    return plate.heights(rows[:, len(PARAMETERS) :], stroke, rows[:, PSI0])
+    stroke = rows[:, ACCELERATION] * sin(rows[:, ANGLE]) / (2.0 * np.pi * rows[:, FREQUENCY]) ** 2
+    shape = cos(rows[:, PSI0])
+    if rows.shape[1] > len(PARAMETERS):
+        shape = shape + plate.Sums(*plate.sums_at(rows[:, len(PARAMETERS) :], rows[:, PSI0]).T).z
+    return -(stroke * shape)
 
 
 def refuse_harmonics(parameters: np.ndarray, what: str) -> None:

@@ -180,14 +180,6 @@ def sums_at(harmonics, phases):
     return found
 
 
-def heights(harmonics: np.ndarray, stroke: np.ndarray, phases: np.ndarray) -> np.ndarray:
-    """Height of the plate (m), shape (n,), for packed harmonics, shape (n, 5 h), strokes a_z/ω² and phases."""
-    shape = np.cos(phases)
-    if harmonics.shape[1] > 0:
-        shape = shape + Sums(*sums_at(harmonics, phases).T).z
-    return -(stroke * shape)
-
-
 def largest_fall(harmonics: Sequence[float]) -> float:
     """The largest downward acceleration of the plate as a share of a_z, for the packed numbers of harmonics."""
     if len(harmonics) == 0:
