@@ -1,11 +1,11 @@
-"""Settings of the stage excitation: the measured drive, with units and ranges."""
+"""Settings of the stage excitation: the measured drive and drives with one harmonic, with units and ranges."""
 
 from typing import Annotated, NotRequired
 
 from pydantic import Field
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import Line, number, word
+from ..pipeline.settings import Acceleration, Line, check_ascending, many, mapping, number, whole, word
 
 
 class Excitation(TypedDict):
@@ -14,6 +14,24 @@ class Excitation(TypedDict):
     mount: number("angle of the sensor's axis x above the track, for columns x and z", "rad", ge=-3.1416, le=3.1416)
 
 
+class CleanDrive(TypedDict):
+    riding: many(Acceleration, "amplitudes at which the slowest parts ride")
+    chaos: many(Acceleration, "amplitudes in chaos")
+    orders: many(whole("order of a harmonic", 2, 20), "orders of the harmonic")
+    shares: many(number("share of a harmonic, over the fundamental", gt=0, le=1), "shares", check=check_ascending)
+    phases: whole("phases of the harmonic, over a whole turn", 1, 360)
+    matters: number("relative change of a velocity from which harmonics matter", gt=0, le=10)
+    statement: mapping(
+        "limits of the statement on chaos",
+        {
+            "share": number("share of the harmonic", gt=0, le=1),
+            "chaos": number("largest accepted change of the median in chaos", gt=0, le=10),
+            "riding": number("least accepted change of the slowest 5 % of riding parts", gt=0, le=10),
+        },
+    )
+
+
 SECTIONS = {
     "excitation": Annotated[Excitation, Field(description="the drive from an accelerometer file")],
+    "clean_drive": Annotated[CleanDrive, Field(description="transit on drives with one harmonic")],
 }

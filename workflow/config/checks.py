@@ -337,7 +337,9 @@ def calibration(config: dict, defaults: dict) -> Iterator[str]:
 
 def excitation(config: dict, defaults: dict) -> Iterator[str]:
     """Faults in the file of an accelerometer and in its signal."""
-    own = config["excitation"]
+    own, clean = config["excitation"], config["clean_drive"]
+    if (share := clean["statement"]["share"]) not in clean["shares"]:
+        yield f"clean_drive.statement.share = {share!r} is not among clean_drive.shares = {clean['shares']!r}; add it"
     if (path := own.get("measured")) is None:
         return
     # Only configs with such a file need NumPy and SciPy.

@@ -198,6 +198,12 @@ def identification_table_settings(table: str, config: dict) -> dict:
     return identification_settings(config, table, model_of(config, normal=table == "edges"))
 
 
+def clean_drive_settings(config: dict) -> dict:
+    """The parts of the transit table, on drives with one harmonic."""
+    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
+    return {**transit, **config["clean_drive"]}
+
+
 FOLLOWED = ("tolerance", "settling", "mean_settling")
 EXCITATION_TABLES = ("parameters", "harmonics", "quality", "samples", "waveform", "spectrum")
 CALIBRATION_TABLES = ("parameters", "samples", "fit", "alternatives", "prediction", "next")
@@ -231,6 +237,7 @@ TABLES = {
     "operating/drive_generations": drive_settings,
     **{f"identification/{name}": partial(identification_table_settings, name) for name in ("edges", *POSTERIOR)},
     **dict.fromkeys((f"excitation/{name}" for name in EXCITATION_TABLES), itemgetter("excitation")),
+    "excitation/clean_drive": clean_drive_settings,
     **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,
