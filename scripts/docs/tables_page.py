@@ -19,7 +19,7 @@ from accuracy import (
 from calibration import calibrate, prediction, study_table
 from claims import verdicts
 from dimensions import portraits
-from excitation import measure
+from excitation import clean_drive, comparison, measure
 from fit import regressions
 from identification import edges, posterior
 from motion import critical, impacts, signals, spectra
@@ -40,7 +40,7 @@ MODULES = {
     "fit": [regressions],
     "sensitivity": [derivatives, curves],
     "operating": [shares, transit, drift, advice, throws, track, drive],
-    "excitation": [measure],
+    "excitation": [measure, comparison, clean_drive],
     "calibration": [calibrate, prediction, study_table],
     "accuracy": [
         *(benchmark, precision, reference_check, precision_estimates, stability, stability_estimates),

@@ -4,9 +4,11 @@ import math
 
 import pandas as pd
 
+from excitation import comparison as compared
 from excitation.estimates import CHANCE
 from pipeline.templates import render
 
+MEASURES = {"velocity_05": "the slowest 5 %", "velocity_50": "the median"}
 DIRECTIONS = {"along": "along", "normal": "normal to"}
 
 
@@ -21,10 +23,19 @@ def largest_share(harmonics: pd.DataFrame) -> dict | None:
     return max(shares, key=lambda one: one["share"], default=None)
 
 
-def make(template: str, parameters: pd.DataFrame, harmonics: pd.DataFrame, quality: pd.DataFrame, prefix: str) -> str:
+def make(
+    template: str,
+    parameters: pd.DataFrame,
+    harmonics: pd.DataFrame,
+    quality: pd.DataFrame,
+    comparison: pd.DataFrame,
+    prefix: str,
+) -> str:
     """The page from its template and the tables of the drive."""
     drive = parameters.set_index("parameter").to_dict("index")
     found = quality.iloc[0].to_dict()
+    changes = {label: compared.change(comparison, name) for name, label in MEASURES.items()}
+    matters = comparison.attrs["matters"]
     return render(
         template,
         {
@@ -38,5 +49,11 @@ def make(template: str, parameters: pd.DataFrame, harmonics: pd.DataFrame, quali
             "quality": found,
             "other": not math.isnan(found["other_frequency"]),
             "chance": CHANCE,
+            "changes": changes,
+            "matters": matters,
+            "verdict": compared.verdict(list(changes.values()), matters),
+            "transit": comparison.attrs,
+            "parts": {name: value for name, value in comparison.attrs["spread"].items() if value and name != "seed"},
+            "late": comparison.set_index("drive").late.to_dict(),
         },
     )

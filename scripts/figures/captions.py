@@ -16,6 +16,7 @@ from claims.about_proofs import lowest_fold
 from claims.about_states import find_runs, flat_part, format_runs
 from claims.finding import onset
 from conveyor import NO_FLUCTUATIONS, Hyperbola, critical_height
+from excitation import clean_drive
 from figures.plots.fig10 import ends_of
 from figures.plots.speed_accuracy import method_name
 from figures.plots.throw import proved_fold
@@ -281,6 +282,16 @@ def identification(*, frictions: pd.DataFrame) -> dict[str, Any]:
     }
 
 
+def harmonics(*, drives: pd.DataFrame) -> dict[str, Any]:
+    limits = drives.attrs["statement"]
+    harmless = clean_drive.harmless_shares(drives, drives.attrs["matters"])
+    return {
+        "statement": clean_drive.statement_of(drives),
+        "limits": limits,
+        "harmless": harmless.replace({np.nan: None}).to_dict("records"),
+    }
+
+
 def transit(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame) -> dict[str, Any]:
     amplitudes = {
         regime: list(map(format_number, rows.acceleration.unique())) for regime, rows in lengths.groupby("regime")
@@ -307,6 +318,7 @@ NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     "fig17": fig17,
     "fig22": fig22,
     "fit_valley": fit_valley,
+    "harmonics": harmonics,
     "identification": identification,
     "overview": overview,
     "bifurcation": bifurcation,

@@ -198,6 +198,14 @@ def identification_table_settings(table: str, config: dict) -> dict:
     return identification_settings(config, table, model_of(config, normal=table == "edges"))
 
 
+def comparison_settings(config: dict) -> dict:
+    """The parts of the transit table, on the measured drive."""
+    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
+    measured = ("frequency", "angle", "phase_shift", "harmonics")
+    model = {name: value for name, value in transit["model"].items() if name not in measured}
+    return {**transit, "model": model, "matters": config["clean_drive"]["matters"]}
+
+
 def clean_drive_settings(config: dict) -> dict:
     """The parts of the transit table, on drives with one harmonic."""
     transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
@@ -237,6 +245,7 @@ TABLES = {
     "operating/drive_generations": drive_settings,
     **{f"identification/{name}": partial(identification_table_settings, name) for name in ("edges", *POSTERIOR)},
     **dict.fromkeys((f"excitation/{name}" for name in EXCITATION_TABLES), itemgetter("excitation")),
+    "excitation/comparison": comparison_settings,
     "excitation/clean_drive": clean_drive_settings,
     **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
     "results/claims": lambda config: {"claims": config["claims"]},
@@ -257,7 +266,7 @@ TABLES = {
 # Tables that only an explicit target makes.
 ON_REQUEST = (
     *("results/scaling", "results/calibration_study"),
-    *(f"excitation/{name}" for name in EXCITATION_TABLES),
+    *(f"excitation/{name}" for name in (*EXCITATION_TABLES, "comparison")),
     *(f"calibration/{name}" for name in CALIBRATION_TABLES),
 )
 

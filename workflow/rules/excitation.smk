@@ -19,9 +19,45 @@ rule excitation:
         "../../scripts/make.py"
 
 
+rule excitation_comparison:
+    input:
+        **tables_of("excitation/parameters", "excitation/harmonics"),
+    output:
+        **tables_of("excitation/comparison"),
+    log:
+        log_file("excitation/comparison"),
+    benchmark:
+        benchmark_file("excitation/comparison")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("excitation.comparison", "excitation/comparison"),
+    message:
+        "Transit on the measured drive, with and without its harmonics"
+    script:
+        "../../scripts/make.py"
+
+
+rule clean_drive:
+    output:
+        **tables_of("excitation/clean_drive"),
+    log:
+        log_file("excitation/clean_drive"),
+    benchmark:
+        benchmark_file("excitation/clean_drive")
+    resources:
+        cpus_per_task=JOB_THREADS,
+    params:
+        **stage("excitation.clean_drive", "excitation/clean_drive"),
+    message:
+        "Transit on drives with one harmonic"
+    script:
+        "../../scripts/make.py"
+
+
 rule excitation_page:
     input:
-        **tables_of(*(f"excitation/{name}" for name in ("parameters", "harmonics", "quality"))),
+        **tables_of(*(f"excitation/{name}" for name in ("parameters", "harmonics", "quality", "comparison"))),
         template=source("workflow/templates/excitation.md"),
     output:
         page=result("excitation.md"),
