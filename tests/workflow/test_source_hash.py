@@ -27,6 +27,8 @@ CALLS = {
     "operating/drift": {"operating/regimes", "operating/transit"},
     "operating/track": {"operating/regimes", "operating/shares"},
     "operating/drive": {"operating/transit"},
+    "excitation/clean_drive": {"operating/transit"},
+    "excitation/comparison": {"operating/transit"},
     "operating/throws": {"operating/regimes", "operating/shares"},
     "identification/posterior": {"identification/edges", "motion/critical"},
 }
