@@ -47,7 +47,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> pd
         model = {**settings["model"], "harmonics": [harmonic(order, share, phase)] if order else []}
         own = {**settings, "model": model}
         table = transit.measure(amplitudes, own, (VARIED,), threads=threads, progress=progress)
-        tables.append(table.assign(order=order, share=share, phase=phase))
+        tables.append(table.drop(columns="population").assign(order=order, share=share, phase=phase))
     table = pd.concat(tables, ignore_index=True)
     return table.assign(regime=table.acceleration.map(regimes))
 

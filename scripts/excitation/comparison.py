@@ -37,7 +37,7 @@ def make(
     for drive, own in ((WITH, above), (WITHOUT, [])):
         measured = {**settings, "model": {**model, "harmonics": own}}
         table = transit.measure(amplitude, measured, (VARIED,), threads=threads, progress=progress)
-        tables.append(table.assign(drive=drive))
+        tables.append(table.drop(columns="population").assign(drive=drive))
     return pd.concat(tables, ignore_index=True)
 
 

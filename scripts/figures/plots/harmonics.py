@@ -56,5 +56,5 @@ def plot(*, drives: pd.DataFrame) -> Figure:
         axes.set_xlabel("phase of the harmonic")
         axes.set_xticks([-np.pi, 0.0, np.pi], ["−π", "0", "π"])
         axes.set_xlim(-np.pi, np.pi)
-    style.legend_above(figure, panels[0][0], ncols=3)
+    style.legend_above(figure, panels[0][0], ncols=drives[drives.order > 0].order.nunique())
     return figure
