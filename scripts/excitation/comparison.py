@@ -18,6 +18,7 @@ TABLES = {
         *transit.MEASURES,
     )
 }
+MORE = 8  # parts for each part of the transit table, because a change is smaller than the velocities
 SURE = 2.0  # standard errors from which two velocities differ
 YES, NO, PERHAPS = "yes", "no", "not known"
 
@@ -35,7 +36,7 @@ def make(
     amplitude = np.array([model.pop("acceleration")])
     above, tables = harmonics_above_noise(harmonics), []
     for drive, own in ((WITH, above), (WITHOUT, [])):
-        measured = {**settings, "model": {**model, "harmonics": own}}
+        measured = {**settings, "model": {**model, "harmonics": own}, "starts": MORE * settings["starts"]}
         table = transit.measure(amplitude, measured, (VARIED,), threads=threads, progress=progress)
         tables.append(table.drop(columns="population").assign(drive=drive))
     return pd.concat(tables, ignore_index=True)

@@ -54,6 +54,7 @@ def make(
             "verdict": compared.verdict(list(changes.values()), matters),
             "transit": comparison.attrs,
             "parts": {name: value for name, value in comparison.attrs["spread"].items() if value and name != "seed"},
+            "more": compared.MORE,
             "late": comparison.set_index("drive").late.to_dict(),
         },
     )

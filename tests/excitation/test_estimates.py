@@ -78,9 +78,7 @@ def test_intervals_contain_the_true_values(kind):
             error = wrap(error) if "phase" in name else error
             inside[name.rstrip("_0123456789")].append(abs(error) <= 1.96 * found[name][1])
     assert np.mean([one for each in inside.values() for one in each]) >= 0.9
-    assert all(np.mean(each) >= 0.6 for each in inside.values()), {
-        name: np.mean(each) for name, each in inside.items()
-    }
+    assert all(np.mean(each) >= 0.6 for each in inside.values()), {name: np.mean(each) for name, each in inside.items()}
 
 
 @pytest.mark.parametrize("kind", ["plain", "short", "colour"])
