@@ -1,9 +1,10 @@
 """Drive design: amplitude, frequency, angle and phase shift at which parts are fast, gently handled and cheap to drive.
 
 NSGA-II (pymoo) searches the Pareto front of three objectives: the 5 % quantile of the transit velocity, the impact
-speed, and the acceleration of the drive. At most a small share of the parts may move back. The velocity must be useful,
-and the impact speed and the displacement of the drive must keep their limits. Because a drive keeps its amplitude only
-within a relative margin, the worst numbers within the margin count. The parts are the varied ones of the transit table.
+speed, and the peak acceleration of the drive. At most a small share of the parts may move back. The velocity must be
+useful, and the impact speed and the displacement of the drive must keep their limits. Because a drive keeps its
+amplitude only within a relative margin, the worst numbers within the margin count. The parts are the varied ones of the
+transit table.
 """
 
 from collections.abc import Callable
@@ -26,6 +27,9 @@ DRAWN = (
 # Relative growth of the hypervolume in the last quarter of the generations up to which a search has settled.
 SETTLED = 0.02
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
+# A second harmonic in the direction of vibration, searched if the config has bounds for both numbers.
+SECOND_HARMONIC = ("harmonic_share", "harmonic_phase")
+PHASES = 720  # of a cycle at which its largest value is looked for
 # Errors of the amplitude, as parts of the margin, at which the search follows a design, and at which it is checked.
 SEARCH_ERRORS, CHECK_ERRORS = np.array([-1.0, 1.0]), np.array([-1.0, 0.0, 1.0])
 # The worst measures of a design within the margin: name, measure of transit, and which value is the worst one.
@@ -42,6 +46,11 @@ CHECKED = ("velocity", "velocity_50", "velocity_95", "impact_speed", "back", "la
 TABLES = {
     "drive_front": (
         *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "parameter of the design") for name in SEARCHED),
+        fields.number(
+            "harmonic_share", "1", "acceleration of a second harmonic over the fundamental; 0 if not searched"
+        ),
+        fields.number("harmonic_phase", "rad", "phase of the second harmonic; 0 if not searched"),
+        fields.number("peak_acceleration", "m/s²", "largest acceleration of the plate in the direction of vibration"),
         fields.number("displacement", "m", "amplitude of the drive's displacement"),
         fields.number("velocity", "m/s", "smallest 5 % quantile of the velocity within the margin, in the search"),
         fields.number("impact_speed", "m/s", "largest 95 % quantile of the impact speed within the margin"),
@@ -63,8 +72,13 @@ TABLES = {
 }
 
 
+def searched(bounds: dict) -> tuple[str, ...]:
+    """The numbers of a design."""
+    return SEARCHED + SECOND_HARMONIC if set(SECOND_HARMONIC) <= set(bounds) else SEARCHED
+
+
 def designs_of(points: np.ndarray, bounds: dict) -> np.ndarray:
-    """Designs, shape (k, 4), from points of the search, shape (k, 4).
+    """Designs, shape (k, 4) or (k, 6), from points of the search of the same shape.
 
     In place of the amplitude, points have the logarithm of its part normal to the track. The normal motion depends on
     this part and on the frequency only: two points with the same normal motion have offspring with this motion, too.
@@ -76,25 +90,49 @@ def designs_of(points: np.ndarray, bounds: dict) -> np.ndarray:
 
 
 def bounds_of_points(bounds: dict) -> np.ndarray:
-    """Bounds of the search, shape (2, 4)."""
-    ends = np.array([bounds[name] for name in SEARCHED]).T
-    ends[:, 0] = log(np.maximum(ends[:, 0] * sin(ends[:, 2]), 1e-9))
+    """Bounds of the search, shape (2, 4) or (2, 6)."""
+    ends = np.array([bounds[name] for name in searched(bounds)]).T
+    ends[:, 0] = np.log(np.maximum(ends[:, 0] * np.sin(ends[:, 2]), 1e-9))
     return ends
+
+
+def largest(designs: np.ndarray, divisor: float) -> np.ndarray:
+    """The largest |cos θ + s/divisor cos(2θ + phase)| of each design with a share s; 1 without a second harmonic."""
+    if designs.shape[1] == len(SEARCHED):
+        return np.ones(len(designs))
+    share, phase = designs[:, len(SEARCHED) :, None].transpose(1, 0, 2)
+    theta = np.linspace(0.0, 2.0 * np.pi, PHASES, endpoint=False)
+    return np.abs(np.cos(theta) + share / divisor * np.cos(2.0 * theta + phase)).max(axis=1)
+
+
+def peak_acceleration(designs: np.ndarray) -> np.ndarray:
+    """Largest acceleration of the plate in the direction of vibration (m/s²)."""
+    return designs[:, 0] * largest(designs, 1.0)
 
 
 def displacement(designs: np.ndarray) -> np.ndarray:
     """Amplitude of the drive's displacement (m)."""
-    return designs[:, 0] / (2.0 * np.pi * designs[:, 1]) ** 2
+    return designs[:, 0] / (2.0 * np.pi * designs[:, 1]) ** 2 * largest(designs, 4.0)
+
+
+def model_of(design: np.ndarray, model: dict) -> dict:
+    """The model on a drive."""
+    numbers = dict(zip(SEARCHED[1:], design[1 : len(SEARCHED)], strict=True))
+    if len(design) > len(SEARCHED):
+        share, phase = design[len(SEARCHED) :].tolist()
+        harmonic = {"order": 2, "along": share, "along_phase": phase, "normal": share, "normal_phase": phase}
+        numbers["harmonics"] = [harmonic]
+    return model | numbers
 
 
 def evaluate(designs: np.ndarray, settings: dict, errors: np.ndarray, *, threads: int = 1) -> pd.DataFrame:
-    """The worst measures within the margin of designs, shape (k, 4), and their displacements.
+    """The worst measures within the margin of designs, shape (k, 4) or (k, 6), and their displacements.
 
     errors : of the amplitude, in parts of the margin
     """
     rows = []
     for design in designs:
-        own = {**settings, "model": settings["model"] | dict(zip(SEARCHED[1:], design[1:], strict=True))}
+        own = {**settings, "model": model_of(design, settings["model"])}
         rows.append(population(design[0] * (1.0 + settings["margin"] * errors), own))
     run = follow(np.concatenate(rows), settings, threads=threads)
     parts = settings["starts"]
@@ -135,7 +173,7 @@ def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np
     if within.any():
         outcomes = evaluate(designs[within], settings, SEARCH_ERRORS)
         outcome.loc[within, outcomes.columns] = outcomes.to_numpy()
-    objectives = np.column_stack([-outcome.velocity, outcome.impact_speed, designs[:, 0]])
+    objectives = np.column_stack([-outcome.velocity, outcome.impact_speed, peak_acceleration(designs)])
     return np.where(np.isnan(objectives), np.inf, objectives), constraints(outcome, settings)
 
 
@@ -156,7 +194,7 @@ def search(settings: dict, seed: int, count: Callable[[], object]) -> pareto.Fro
         count()
         return outcomes
 
-    drawn = np.random.default_rng(seed).uniform(*bounds, (DRAWN * settings["population"], len(SEARCHED)))
+    drawn = np.random.default_rng(seed).uniform(*bounds, (DRAWN * settings["population"], bounds.shape[1]))
     front = pareto.search(evaluate_points, drawn, bounds, reference_point(settings), settings, seed, constraints=5)
     return front._replace(points=designs_of(front.points, settings["bounds"]))
 
@@ -186,16 +224,17 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
     """A front with the transit of all parts for some designs, and the recommended ones among confirmed designs."""
     unknown = dict.fromkeys((f"checked_{name}" for name in CHECKED), np.nan)
     front = front.assign(checked=False, confirmed=False, recommended=False, **unknown)
-    chosen = spread(objectives_of(front, front.acceleration), settings["checked"])
+    chosen = spread(objectives_of(front, front.peak_acceleration), settings["checked"])
     if len(chosen) == 0:
         return front
-    outcome = evaluate(front.loc[chosen, list(SEARCHED)].to_numpy(), settings, CHECK_ERRORS, threads=threads)
+    designs = front.loc[chosen, list(searched(settings["bounds"]))].to_numpy()
+    outcome = evaluate(designs, settings, CHECK_ERRORS, threads=threads)
     outcome.index = chosen
     front.loc[chosen, "checked"] = True
     front.loc[chosen, list(unknown)] = outcome[list(CHECKED)].to_numpy()
     front.loc[chosen, "confirmed"] = is_within(outcome, settings)
     sure = outcome[is_within(outcome, settings)]
-    best = spread(objectives_of(sure, front.acceleration[sure.index]), settings["recommended"])
+    best = spread(objectives_of(sure, front.peak_acceleration[sure.index]), settings["recommended"])
     front.loc[sure.index[best], "recommended"] = True
     return front
 
@@ -213,8 +252,13 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
         np.vstack([front.objectives for front in fronts.values()]),
     )
     whole = pareto.hypervolume(objectives, reference_point(settings))
-    front = pd.DataFrame(designs, columns=SEARCHED)
-    front = front.assign(displacement=displacement(designs), velocity=-objectives[:, 0], impact_speed=objectives[:, 1])
+    front = pd.DataFrame(designs, columns=searched(settings["bounds"])).reindex(columns=SEARCHED + SECOND_HARMONIC)
+    front = front.fillna(0.0).assign(
+        peak_acceleration=peak_acceleration(designs),
+        displacement=displacement(designs),
+        velocity=-objectives[:, 0],
+        impact_speed=objectives[:, 1],
+    )
     history = [
         {"seed": seed, "generation": number, "hypervolume": volume / whole if whole else 0.0}
         for seed, found in fronts.items()

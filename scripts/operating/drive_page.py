@@ -47,6 +47,7 @@ def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFra
     values = summarize_search(front=drive_front, generations=drive_generations)
     values |= {
         "rows": recommended.to_dict("records"),
+        "second": "harmonic_share" in drive_front.attrs["bounds"],
         "late": (recommended.checked_late > MANY_LATE).sum(),
         "slides": is_steep(drive_front.attrs["model"]),
         "frictionless": is_frictionless(drive_front.attrs["model"]),

@@ -228,3 +228,39 @@ def test_a_search_that_finds_nothing_says_so(monkeypatch):
     page = drive_page.make(TEMPLATE, steep, generations)
     assert "too steep for friction to stop a part" in page and "Widen the bounds" not in page
     assert "inf" not in page
+
+
+SECOND = {**SETTINGS, "bounds": {**SETTINGS["bounds"], "harmonic_share": [0.0, 0.5], "harmonic_phase": [-3.1, 3.1]}}
+
+
+def test_a_second_harmonic_is_searched_only_with_bounds_for_it():
+    assert drive.bounds_of_points(SETTINGS["bounds"]).shape == (2, 4)
+    ends = drive.bounds_of_points(SECOND["bounds"])
+    assert ends[:, 4:].tolist() == [[0.0, -3.1], [0.5, 3.1]]
+    points = np.random.default_rng(1).uniform(*ends, (50, 6))
+    assert (drive.designs_of(points, SECOND["bounds"])[:, 4:] == points[:, 4:]).all()
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.7, -2.0, math.pi])
+def test_peaks_include_the_second_harmonic(phase):
+    """Displacements are the integrals of the accelerations."""
+    share, frequency = 0.3, 50.0
+    design = np.array([[40.0, *PAPER, share, phase]])
+    omega, time = 2.0 * math.pi * frequency, np.linspace(0.0, 1.0 / frequency, 20001)[:-1]
+    acceleration = 40.0 * (np.cos(omega * time) + share * np.cos(2.0 * omega * time + phase))
+    # The displacement without a mean, by the spectrum.
+    spectrum, order = np.fft.rfft(acceleration), np.arange(10001)
+    spectrum[1:] /= -((order[1:] * omega) ** 2)
+    spectrum[0] = 0.0
+    assert drive.peak_acceleration(design)[0] == pytest.approx(np.abs(acceleration).max(), rel=1e-4)
+    assert drive.displacement(design)[0] == pytest.approx(np.abs(np.fft.irfft(spectrum)).max(), rel=1e-4)
+    pure = np.array([[40.0, *PAPER]])
+    assert drive.peak_acceleration(pure)[0] == 40.0
+
+
+def test_a_design_has_its_harmonic_in_the_direction_of_vibration():
+    model = drive.model_of(np.array([40.0, *PAPER, 0.3, 0.7]), {"friction": 0.15, "harmonics": [{"order": 3}]})
+    harmonic = {"order": 2, "along": 0.3, "along_phase": 0.7, "normal": 0.3, "normal_phase": 0.7}
+    assert model["harmonics"] == [harmonic]
+    assert [model[name] for name in drive.SEARCHED[1:]] == PAPER
+    assert "harmonics" not in drive.model_of(np.array([40.0, *PAPER]), {"friction": 0.15})
