@@ -1,11 +1,13 @@
-"""Theory of isolated impacts and of a bouncing rigid ball: closed forms, and a reduced equation where there is none."""
+"""Theory of isolated impacts, a bouncing rigid ball and a sliding part: closed forms, or a reduced equation."""
 
 import math
 
+import numpy as np
 from scipy.integrate import solve_ivp
 
 from conveyor import Conveyor
 
+MANY = 200_000  # phases of a cycle, for medians to five digits
 SCIPY = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-15}  # options of SciPy for the dimensionless impact
 
 
@@ -70,3 +72,18 @@ def rigid_range(restitution: float) -> tuple[float, float]:
     """
     fold = math.pi * (1.0 - restitution) / (1.0 + restitution)
     return fold, math.hypot(fold, 2.0 * (1.0 + restitution**2) / (1.0 + restitution) ** 2)
+
+
+def two_frequencies(ratio: float, phase: float) -> tuple[float, float]:
+    """A plate that vibrates along the track as -X [cos θ + r cos(2θ + phase)], and a part that always slides on it.
+
+    Returns
+    -------
+    the amplitude of the plate's displacement in units of X, and the mean velocity of the part in units of Xω in the
+    limit of small friction: the median of the plate's velocity, because friction pushes forwards for one half of the
+    time and backwards for the other
+    """
+    theta = 2.0 * math.pi * (np.arange(MANY) + 0.5) / MANY
+    displacement = np.cos(theta) + ratio * np.cos(2.0 * theta + phase)
+    velocity = np.sin(theta) + 2.0 * ratio * np.sin(2.0 * theta + phase)
+    return float(np.abs(displacement).max()), float(np.median(velocity))

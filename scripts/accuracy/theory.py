@@ -13,14 +13,14 @@ import pandas as pd
 from scipy.optimize import minimize_scalar
 
 from accuracy import closed_forms
-from conveyor import Conveyor, Start, continue_orbit, conveyor_motion, normal_gravity, parameter_table, periodic_orbit
+from conveyor import Conveyor, Start, continue_orbit, conveyor_motion, normal_gravity, parameter_table, periodic_orbit, simulate
 from conveyor.methods import event_driven
 from pipeline import fields, grid
 from pipeline.rule_log import JobError
 
 TABLES = {
     "theory": (
-        fields.text("kind", "rigid, cascade or impact, which have different accepted differences"),
+        fields.text("kind", "rigid, cascade, impact or sliding, which have different accepted differences"),
         fields.text("quantity", "compared quantity"),
         fields.text("case", "parameters"),
         fields.text("unit", "unit of theory, computed and error"),
@@ -36,14 +36,20 @@ TABLES = {
 RESTITUTION = (0.2, 0.5, 0.8)  # of a rigid ball on a vibrating plate
 STIFFNESS = (1e8, 1e9, 1e10)  # N/m, of linear contacts from which the rigid limit is extrapolated
 SPEED = (0.05, 0.35, 1.0)  # m/s, of isolated impacts
-# Largest accepted relative differences; extrapolation, the last change of the stored ratios, and rounding limit them.
-ACCEPTED = {"rigid": 1e-8, "cascade": 1e-5, "impact": 1e-9}
+# Largest accepted relative differences. What limits them: extrapolation, the last change of the stored ratios, rounding,
+# and the friction, which the theory of sliding takes as small.
+ACCEPTED = {"rigid": 1e-8, "cascade": 1e-5, "impact": 1e-9, "sliding": 1e-3}
 # Limit of the ratios of successive distances of period doublings (Feigenbaum 1978; digits: Briggs 1991).
 FEIGENBAUM = 4.669201609102990672
 TOLERANCE = 1e-14  # of contact steps
 LIGHT = 1e-5  # dimensionless damping so small that the loss of speed is proportional to it
 RUN = 20.0  # duration of a run in durations of an undamped impact
 CYCLES = 200  # excitation cycles until a part with a stiff contact is close to its orbit
+# Lee, Teng and Hu (2021): Hz, m. The ratio of the displacements and the phases are those of the largest velocity.
+LOWER_FREQUENCY, STROKE = 237.5, 54.5e-6
+RATIO, PHASES = 0.25, (0.5 * math.pi, -0.5 * math.pi)
+SMALL_FRICTION = 0.05
+SLIDING_TIME = 8.0  # s, of which the last quarter is a whole number of cycles
 FAR_ENOUGH = 1.02  # end of a branch in amplitudes of the first period doubling of a rigid ball
 
 
@@ -188,6 +194,29 @@ def impact_rows(settings: dict) -> Iterator[dict]:
             yield row("impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
 
 
+def sliding_rows(settings: dict) -> Iterator[dict]:
+    """Rows of the velocity of a part that slides on a plate with two frequencies, for both directions."""
+    omega = 2.0 * math.pi * LOWER_FREQUENCY
+    for phase in PHASES:
+        peak, median = closed_forms.two_frequencies(RATIO, phase)
+        fundamental = STROKE / peak
+        # The acceleration of the second harmonic has four times the ratio of the displacement.
+        drive = {"acceleration": fundamental * omega**2, "frequency": LOWER_FREQUENCY, "angle": 0.0}
+        drive["harmonics"] = [{"order": 2, "along": 4.0 * RATIO, "along_phase": phase}]
+        conveyor, start = grid.conveyor_and_start(
+            settings["model"]
+            | drive
+            | {"friction": SMALL_FRICTION, "static_friction": SMALL_FRICTION, "z0": "conveyor"}
+        )
+        computed = simulate(conveyor, start, duration=SLIDING_TIME).mean_velocity()
+        case = (
+            f"{1e6 * STROKE:g} µm, {LOWER_FREQUENCY:g} and {2.0 * LOWER_FREQUENCY:g} Hz, phase {math.degrees(phase):g}°"
+        )
+        source = "median of the plate's velocity"
+        theory = fundamental * omega * median
+        yield row("sliding", "velocity of a part that slides", case, "m/s", theory, computed, source)
+
+
 def row(
     kind: str,
     quantity: str,
@@ -215,5 +244,5 @@ def row(
 
 def make(settings: dict, cascade: pd.DataFrame) -> dict[str, list]:
     """The columns of the table of theory, with the table of period doublings."""
-    rows = [*rigid_rows(settings), cascade_row(cascade), *impact_rows(settings)]
+    rows = [*rigid_rows(settings), cascade_row(cascade), *impact_rows(settings), *sliding_rows(settings)]
     return fields.columns(rows, TABLES["theory"])

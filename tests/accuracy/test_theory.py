@@ -87,3 +87,28 @@ def test_a_contact_that_cannot_pull_ends_sooner_and_keeps_more_speed():
 def test_an_impact_that_never_ends_is_an_error():
     with pytest.raises(JobError, match="less damping"):
         theory.simulate_impact(Conveyor(damping=100.0), 0.1)
+
+
+def test_a_plate_with_one_frequency_does_not_move_a_part_that_slides():
+    assert closed_forms.two_frequencies(0.0, 0.3) == (pytest.approx(1.0), pytest.approx(0.0, abs=1e-9))
+
+
+def test_two_frequencies_are_fastest_at_the_ratio_of_the_table():
+    """In units of the largest displacement."""
+
+    def speed(ratio, phase):
+        stroke, velocity = closed_forms.two_frequencies(ratio, phase)
+        return abs(velocity) / stroke
+
+    best = speed(theory.RATIO, theory.PHASES[0])
+    assert speed(theory.RATIO, theory.PHASES[1]) == pytest.approx(best)
+    others = [speed(r, p) for r in (0.15, 0.24, 0.26, 0.4, 1.0) for p in np.linspace(0.0, 2.0 * np.pi, 25)]
+    assert max(others) < best
+
+
+def test_the_opposite_phase_reverses_a_part_that_slides():
+    """Shifted by half a cycle, the plate's motion is the mirrored one."""
+    settings = {"model": MODEL | {"stiffness": 5e5, "damping": 0.3, "exponent": 1.5}}
+    forwards, backwards = theory.sliding_rows(settings)
+    assert forwards["difference"] < 1e-3
+    assert backwards["computed"] == pytest.approx(-forwards["computed"], rel=1e-6)
