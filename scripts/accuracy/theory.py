@@ -13,7 +13,16 @@ import pandas as pd
 from scipy.optimize import minimize_scalar
 
 from accuracy import closed_forms
-from conveyor import Conveyor, Start, continue_orbit, conveyor_motion, normal_gravity, parameter_table, periodic_orbit, simulate
+from conveyor import (
+    Conveyor,
+    Start,
+    continue_orbit,
+    conveyor_motion,
+    normal_gravity,
+    parameter_table,
+    periodic_orbit,
+    simulate,
+)
 from conveyor.methods import event_driven
 from pipeline import fields, grid
 from pipeline.rule_log import JobError
