@@ -9,6 +9,7 @@ from claims.about_proofs import lowest_fold, stable_motions
 from claims.about_states import flat_part
 from claims.verdicts import VERDICTS
 from conveyor import MAX_PERIOD
+from excitation import clean_drive
 from figures.captions import accumulation, fig10
 from operating.chart import spreads_of
 from operating.parts import POPULATIONS
@@ -79,7 +80,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
     Parameters
     ----------
     tables : claims, benchmark, edge, edge_euler, estimate, estimate_euler, on_plate, spectrum, cascade, certificates,
-        certified_bifurcations, certified_chaos, fit, transit and lengths
+        certified_bifurcations, certified_chaos, fit, transit, lengths and drives
     """
     claims = tables["claims"].set_index("id")
     first_error, second_error, right_signs = claims.paper_method["C22"]
@@ -101,4 +102,5 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         **summarize_proofs(tables["certificates"], tables["certified_bifurcations"], tables["certified_chaos"]),
         **summarize_speed(tables["benchmark"]),
         **summarize_transit(tables["transit"], tables["lengths"]),
+        "clean": clean_drive.statement_of(tables["drives"]),
     }

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from conveyor.parameters import MOST_HARMONICS
+from conveyor import MOST_HARMONICS
 from excitation.estimates import SHARES
 
 DIGITS = 6

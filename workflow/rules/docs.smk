@@ -38,6 +38,7 @@ FACTS = {
     "fit": table("regressions/height"),
     "transit": table("operating/transit"),
     "lengths": table("operating/track_lengths"),
+    "drives": table("excitation/clean_drive"),
 }
 FACTS_PARAMS = {
     "figures": {name: {key: entry[key] for key in ("title", "section")} for name, entry in config["figures"].items()},

@@ -52,6 +52,7 @@ def plot(*, drives: pd.DataFrame) -> Figure:
             axes.set_title(f"{place.acceleration:g} m/s²{', chaos' if place.regime == CHAOS else ''}")
         if column == 0:
             axes.set_ylabel(f"change of {label} in %")
+    panels[0][0].set_ylim(np.array([-1.1, 1.1]) * 100.0 * changes.change.abs().max())
     for axes in panels[-1]:
         axes.set_xlabel("phase of the harmonic")
         axes.set_xticks([-np.pi, 0.0, np.pi], ["−π", "0", "π"])
