@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor import progress_bar
-from conveyor.elementary import exp, log, sin
+from conveyor.elementary import cos, exp, log, sin
 from conveyor.linear_algebra import length
 from operating.parts import population
 from operating.transit import follow, summarize
@@ -92,7 +92,7 @@ def designs_of(points: np.ndarray, bounds: dict) -> np.ndarray:
 def bounds_of_points(bounds: dict) -> np.ndarray:
     """Bounds of the search, shape (2, 4) or (2, 6)."""
     ends = np.array([bounds[name] for name in searched(bounds)]).T
-    ends[:, 0] = np.log(np.maximum(ends[:, 0] * np.sin(ends[:, 2]), 1e-9))
+    ends[:, 0] = log(np.maximum(ends[:, 0] * sin(ends[:, 2]), 1e-9))
     return ends
 
 
@@ -102,7 +102,7 @@ def largest(designs: np.ndarray, divisor: float) -> np.ndarray:
         return np.ones(len(designs))
     share, phase = designs[:, len(SEARCHED) :, None].transpose(1, 0, 2)
     theta = np.linspace(0.0, 2.0 * np.pi, PHASES, endpoint=False)
-    return np.abs(np.cos(theta) + share / divisor * np.cos(2.0 * theta + phase)).max(axis=1)
+    return np.abs(cos(theta) + share / divisor * cos(2.0 * theta + phase)).max(axis=1)
 
 
 def peak_acceleration(designs: np.ndarray) -> np.ndarray:
