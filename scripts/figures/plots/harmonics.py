@@ -51,7 +51,7 @@ def plot(*, drives: pd.DataFrame) -> Figure:
         if row == 0:
             axes.set_title(f"{place.acceleration:g} m/s²{', chaos' if place.regime == CHAOS else ''}")
         if column == 0:
-            axes.set_ylabel(f"change of {label} in %")
+            axes.set_ylabel(f"change of\n{label} in %")
     panels[0][0].set_ylim(np.array([-1.1, 1.1]) * 100.0 * changes.change.abs().max())
     for axes in panels[-1]:
         axes.set_xlabel("phase of the harmonic")
