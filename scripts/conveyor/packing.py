@@ -126,7 +126,8 @@ def as_rows(parameters: np.ndarray) -> np.ndarray:
     if names is None or names[: len(PARAMETERS)] != PARAMETERS:
         return parameters
     parameters = np.asarray(parameters)
-    return np.ascontiguousarray(parameters).view(np.float64).reshape(*parameters.shape, -1)
+    numbers = parameters.dtype.itemsize // np.dtype(np.float64).itemsize
+    return np.ascontiguousarray(parameters).view(np.float64).reshape(*parameters.shape, numbers)
 
 
 def as_table(rows: np.ndarray) -> np.ndarray:

@@ -28,8 +28,7 @@ rule excitation_comparison:
         log_file("excitation/comparison"),
     benchmark:
         benchmark_file("excitation/comparison")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("excitation.comparison", "excitation/comparison"),
     message:
@@ -45,8 +44,7 @@ rule clean_drive:
         log_file("excitation/clean_drive"),
     benchmark:
         benchmark_file("excitation/clean_drive")
-    resources:
-        cpus_per_task=JOB_THREADS,
+    threads: THREADS
     params:
         **stage("excitation.clean_drive", "excitation/clean_drive"),
     message:
