@@ -45,8 +45,8 @@ TABLES = {
 RESTITUTION = (0.2, 0.5, 0.8)  # of a rigid ball on a vibrating plate
 STIFFNESS = (1e8, 1e9, 1e10)  # N/m, of linear contacts from which the rigid limit is extrapolated
 SPEED = (0.05, 0.35, 1.0)  # m/s, of isolated impacts
-# Largest accepted relative differences. What limits them: extrapolation, the last change of the stored ratios, rounding,
-# and the friction, which the theory of sliding takes as small.
+# Largest accepted relative differences, limited by extrapolation, by the last change of the stored ratios, by rounding,
+# and by the friction, which the theory of sliding takes as small.
 ACCEPTED = {"rigid": 1e-8, "cascade": 1e-5, "impact": 1e-9, "sliding": 1e-3}
 # Limit of the ratios of successive distances of period doublings (Feigenbaum 1978; digits: Briggs 1991).
 FEIGENBAUM = 4.669201609102990672
