@@ -102,14 +102,21 @@ class DriveSearch(TypedDict):
     longest: number("time for which a part is followed", "s", gt=0, le=1e5)
 
 
+class DriveBounds(TypedDict):
+    acceleration: interval(MODEL_TYPES["acceleration"], DESCRIPTIONS["acceleration"])
+    frequency: interval(MODEL_TYPES["frequency"], DESCRIPTIONS["frequency"])
+    angle: interval(MODEL_TYPES["angle"], DESCRIPTIONS["angle"])
+    phase_shift: interval(MODEL_TYPES["phase_shift"], DESCRIPTIONS["phase_shift"])
+    harmonic_share: NotRequired[
+        interval(number("share of a second harmonic", ge=0, le=2), "share of a second harmonic, with harmonic_phase")
+    ]
+    harmonic_phase: NotRequired[
+        interval(number("phase of the second harmonic", "rad", ge=-6.2832, le=6.2832), "phase, with harmonic_share")
+    ]
+
+
 class Drive(TypedDict):
-    bounds: mapping(
-        "search interval of each parameter",
-        {
-            name: interval(MODEL_TYPES[name], DESCRIPTIONS[name])
-            for name in ("acceleration", "frequency", "angle", "phase_shift")
-        },
-    )
+    bounds: Annotated[DriveBounds, Field(description="search interval of each parameter")]
     displacement: number("largest amplitude of the drive's displacement, â/ω²", "m", gt=0, le=1)
     velocity: number("least useful velocity of the slowest 5 % of the parts", "m/s", gt=0, le=100)
     impact_speed: number("largest impact speed that a design may have", "m/s", gt=0, le=100)
