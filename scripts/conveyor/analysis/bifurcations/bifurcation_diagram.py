@@ -15,7 +15,7 @@ def follow_attractor(
 
     Parameters
     ----------
-    parameters : float64, shape (n, 16), rows as from model.pack, in order; only the first initial condition counts
+    parameters : table, shape (n,), in order; only the first initial condition counts
     transient : excitation cycles after each step that are not recorded
     strobes : excitation cycles that are recorded
     tolerance : of the contact steps
