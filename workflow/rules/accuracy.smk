@@ -24,8 +24,7 @@ rule benchmark:
         "../../scripts/make.py"
 
 
-# These jobs start early, because each scene keeps one core busy for a long time. Only one of them starts at the beginning, because
-# two would compile the same functions.
+# These jobs start early, because each scene keeps one core busy for a long time.
 rule precision:
     output:
         precision=table("precision/{name}"),

@@ -1,6 +1,5 @@
 # Which parameters the paper's numbers imply: edges of the first state over the parameters of the contact, and the posterior. These
-# jobs start first, because they wait for each other. A job of the rule `precision` starts beside them, because both share little
-# compiled code.
+# jobs start first, because they wait for each other.
 
 
 rule identification_edges:
