@@ -136,6 +136,14 @@ def test_parts_that_belong_to_the_paper_are_left_out(name):
     assert methods == {"event"}
 
 
+def test_harmonics_leave_out_what_cannot_take_them():
+    harmonic = {"order": 2, "along": 0.1, "along_phase": 0.0, "normal": 0.1, "normal_phase": 1.0}
+    found = config_of({"prefix": "mine", "model": {"harmonics": [harmonic]}})
+    assert "sensitivity" not in found["figures"]
+    assert found["model"]["harmonics"][0]["normal"] == 0.1
+    assert "sensitivity" in config_of({"prefix": "mine", "model": {"angle": 0.3}})["figures"]
+
+
 def test_keys_of_an_overlay_keep_their_values():
     overlay = merged(
         example("bowl"),

@@ -113,11 +113,15 @@ def drop_other_methods(config: dict, overlay: dict) -> None:
 
 
 def drop_figures(config: dict, overlay: dict) -> None:
-    """Drop what belongs to the paper in figures: whole figures, marks, and tables that the config no longer has."""
+    """Drop what belongs to the paper in figures: whole figures, marks, and tables that the config no longer has.
+
+    The figure of the sensitivities needs derivatives in dimensionless groups, which a plate with harmonics has not.
+    """
     tables = references(by_methods(merge(config, overlay)))
     for section in FIGURES:
         for name, entry in list(config[section].items()):
-            if "paper_only" in entry and name not in overlay.get(section, ()):
+            no_harmonics = name == "sensitivity" and overlay["model"].get("harmonics")
+            if ("paper_only" in entry or no_harmonics) and name not in overlay.get(section, ()):
                 del config[section][name]
             for key in {"tables", "caption_tables"} & entry.keys():
                 entry[key] = {role: table for role, table in entry[key].items() if table in tables}
