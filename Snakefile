@@ -3,7 +3,7 @@ import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
-from snakemake.utils import min_version, update_config
+from snakemake.utils import min_version
 
 try:
     from workflow.config import ConfigError, load_config
@@ -25,7 +25,8 @@ OVERLAYS, COMMAND_LINE = [], {}
 if Path(workflow.main_snakefile).resolve().is_relative_to(ROOT):
     OVERLAYS = [os.path.relpath(file) for file in workflow.overwrite_configfiles]
     COMMAND_LINE = parse_texts(dict(workflow.config_settings.config))
-    update_config(config, COMMAND_LINE)
+    # Without the default values of `configfile:`, which would count as given by the user and would not be scaled.
+    config = COMMAND_LINE
 else:
     config = parse_texts(config)
 
