@@ -3,13 +3,12 @@
 `simulate` follows each part by itself, with a tighter tolerance than the calibration uses.
 """
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from calibration.measurements import DEFAULTS
-from conveyor import Conveyor, Start, simulate
+from conveyor import Conveyor, Start, parameter_table, plate_heights, simulate
 
 TOLERANCE = 1e-9
 FORMAT = ".4g"
@@ -23,9 +22,8 @@ def true_velocity(
     duration : s over which the velocity is measured, and time on the track before
     """
     height, vz, phase = (float(random.uniform(*box[name])) for name in ("height", "vz0", "psi0"))
-    stroke = acceleration * math.sin(model["angle"]) / (2.0 * math.pi * model["frequency"]) ** 2
     conveyor = Conveyor(**{**model, "acceleration": acceleration, "psi0": phase})
-    start = Start(height - stroke * math.cos(phase), vz)
+    start = Start(float(height + plate_heights(parameter_table(conveyor).reshape(1))[0]), vz)
     run = simulate(conveyor, start, duration=2.0 * duration, tolerance=TOLERANCE)
     x = run.sample(np.array([duration, 2.0 * duration]))["x"]
     return float((x[1] - x[0]) / duration)
