@@ -132,20 +132,6 @@ def test_verdicts_are_counted():
     assert render("{{ not_reproduced | length }} ({{ not_reproduced | listed }})", found) == "2 (C02 and C03)"
 
 
-def test_cases_that_miss_a_goal_are_named():
-    template = (TEMPLATES / "README.md").read_text(encoding="utf-8")
-    text = re.search(r"{% if missed -%}.*?{% endif %}", template, re.DOTALL)[0]
-    goals = dict.fromkeys("ABC", 200.0)
-    missed = [{"case": case, "motion": "jumping", "speed": 150.4} for case in goals]
-    reached = [f"case {case} (jumping) reached 150× (goal 200×)" for case in goals]
-    for rows, sentence in (
-        ([], "The solver reaches all 3 speed goals."),
-        (missed[:1], f"The solver misses 1 of its 3 speed goals: {reached[0]}."),
-        (missed, f"The solver misses 3 of its 3 speed goals: {reached[0]}, {reached[1]} and {reached[2]}."),
-    ):
-        assert render(text, {"missed": rows, "speed_goals": goals}) == sentence
-
-
 # -- the config, key by key --------------------------------------------------------------------------------------------
 
 
