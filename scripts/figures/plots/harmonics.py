@@ -54,7 +54,7 @@ def plot(*, drives: pd.DataFrame) -> Figure:
             axes.set_ylabel(f"change of\n{label} in %")
     panels[0][0].set_ylim(np.array([-1.1, 1.1]) * 100.0 * changes.change.abs().max())
     for axes in panels[-1]:
-        axes.set_xlabel("phase of the harmonic")
+        axes.set_xlabel("phase of the\nharmonic in rad")
         axes.set_xticks([-np.pi, 0.0, np.pi], ["−π", "0", "π"])
         axes.set_xlim(-np.pi, np.pi)
     style.legend_above(figure, panels[0][0], ncols=drives[drives.order > 0].order.nunique())
