@@ -288,6 +288,7 @@ def harmonics(*, drives: pd.DataFrame) -> dict[str, Any]:
     return {
         "statement": clean_drive.statement_of(drives),
         "limits": limits,
+        "ends": ENDS,
         "harmless": harmless.replace({np.nan: None}).to_dict("records"),
     }
 
