@@ -155,9 +155,9 @@ def test_every_outcome_has_a_marker():
 
 
 def test_a_picture_does_not_wait_for_the_compiler():
-    """Most plots need only names and closed forms of the solver; `simulate` is imported on first use."""
+    """Most plots need only names and units of the library; `simulate` is imported on first use."""
     code = (
-        "import sys, make, draw, conveyor; from figures.plots import fig13; before = 'numba' in sys.modules; "
+        "import sys, make, draw, conveyor; from figures.plots import fig22; before = 'numba' in sys.modules; "
         "from conveyor import simulate; print(before, 'numba' in sys.modules, hasattr(conveyor, 'nothing'))"
     )
     scripts = Path(__file__).resolve().parents[2] / "scripts"

@@ -10,7 +10,8 @@ SCRIPTS = ROOT / "scripts"
 MODULES = sorted(
     ".".join(path.relative_to(SCRIPTS).with_suffix("").parts)
     for path in SCRIPTS.rglob("*.py")
-    if path.name != "__init__.py" and "conveyor" not in path.parts
+    # The declarations of settings belong to the workflow, which imports them as modules of the package `scripts`.
+    if path.name not in ("__init__.py", "settings.py") and "conveyor" not in path.parts
 )
 
 
