@@ -1,8 +1,8 @@
 """Linear algebra of small matrices, with every sum in a fixed order.
 
-NumPy hands `@`, `numpy.linalg` and `einsum` to kernels that round differently on different processors. Where a last
-digit decides which step a continuation takes, or which points a search draws, these functions give the same bits
-everywhere. They are fast enough for matrices of a few dozen rows.
+NumPy hands `@` and `numpy.linalg` to kernels that round differently on different processors. Where a last digit decides
+which step a continuation takes, or which points a search draws, these functions give the same bits everywhere. They are
+fast enough for matrices of a few dozen rows.
 """
 
 import cmath

@@ -8,7 +8,15 @@ import pytest
 
 from calibration import prediction
 from calibration.calibrate import calibrate
-from calibration.inference import NOT_DETERMINED, OPEN, data_of, summarize_parameters
+from calibration.inference import (
+    DETERMINED,
+    DISAGREEING,
+    NOT_DETERMINED,
+    OPEN,
+    agree,
+    data_of,
+    summarize_parameters,
+)
 from calibration.measurements import parse
 from calibration.model_check import compare_alternatives
 from calibration.search_space import bounds_of
@@ -98,6 +106,20 @@ def test_an_interval_that_only_the_range_limits_ends_there():
     assert [rows["stiffness"][end] for end in ("low", "high")] == [
         rows["stiffness"][end] for end in ("range_low", "range_high")
     ]
+
+
+def test_searches_that_find_other_values_disagree():
+    """Four searches, each narrow: at one place, they agree; the last one elsewhere, they do not."""
+    low, high = bounds_of(SETTINGS)
+    random = np.random.default_rng(3)
+    points = 0.5 * (low + high) + 0.01 * (high - low) * random.standard_normal((400, 3))
+    search = np.arange(400) % 4
+    weights = np.full(400, 1 / 400)
+    for shift, status in ((0.0, DETERMINED), (0.2, DISAGREEING)):
+        moved = points + np.where(search == 3, shift, 0.0)[:, None] * [high[0] - low[0], 0.0, 0.0]
+        found = Sample(moved, np.zeros(400), weights, 0.0, 400.0, search)
+        friction, *_ = summarize_parameters(found, SETTINGS)
+        assert friction["status"] == status and agree(found, SETTINGS) == (status == DETERMINED)
 
 
 def test_velocities_that_no_parameters_give_are_not_explained():
