@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from pipeline.importance_sampling import EXACT, monte_carlo_error, pooled, sample
+from pipeline.importance_sampling import EXACT, Sample, monte_carlo_error, pooled, sample
 
 BOUNDS = np.array([[-5.0, -5.0, -5.0], [5.0, 5.0, 5.0]])
 OPTIONS = {"first": 500, "points": 500, "rounds": 6, "enough": math.inf, "seed": 1, "widths": EXACT}
@@ -68,6 +68,14 @@ def test_the_monte_carlo_error_is_that_of_repetitions():
         means.append(mean(found.weights))
         errors.append(monte_carlo_error(found, mean))
     assert 0.5 < np.sqrt(np.mean(np.square(errors))) / np.std(means, ddof=1) < 2.0
+
+
+def test_the_monte_carlo_error_of_a_mean_is_its_standard_error():
+    """Four searches of equal weight: the standard deviation of their means over the root of their number."""
+    values, search = np.random.default_rng(6).normal(size=40), np.repeat(np.arange(4), 10)
+    found = Sample(values[:, None], np.zeros(40), np.full(40, 1 / 40), 0.0, 40.0, search)
+    means = values.reshape(4, 10).mean(axis=1)
+    assert monte_carlo_error(found, lambda weights: weights @ values) == pytest.approx(means.std(ddof=1) / 2.0)
 
 
 def test_searches_count_with_their_evidence():
