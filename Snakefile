@@ -20,13 +20,12 @@ min_version("9.27")
 configfile: str(ROOT / "config/config.yaml")
 
 
-# Overlays and values of the option --config. As a module, all that counts is the config that the other workflow passes.
-OVERLAYS, COMMAND_LINE = [], {}
+# Overlays of the option --configfile. As a module, all that counts is the config that the other workflow passes.
+OVERLAYS = []
 if Path(workflow.main_snakefile).resolve().is_relative_to(ROOT):
     OVERLAYS = [os.path.relpath(file) for file in workflow.overwrite_configfiles]
-    COMMAND_LINE = parse_texts(dict(workflow.config_settings.config))
     # Without the default values of `configfile:`, which would count as given by the user and would not be scaled.
-    config = COMMAND_LINE
+    config = parse_texts(dict(workflow.config_settings.config))
 else:
     config = parse_texts(config)
 

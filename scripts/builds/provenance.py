@@ -18,6 +18,7 @@ from pathlib import Path
 import pandas as pd
 
 from conveyor import record_rivals
+from pipeline.rule_log import COMPILED
 
 ROOT = Path(__file__).resolve().parents[2]
 UNKNOWN = "unknown"
@@ -61,13 +62,30 @@ def processor() -> str:
     return found[1] if found else platform.processor() or platform.machine() or UNKNOWN
 
 
-def seconds(folder: Path) -> dict[str, float]:
-    """Total wall time (s) of the jobs in each subfolder of a folder of benchmark files."""
-    return {
-        part.name: round(sum(float(pd.read_csv(file, sep="\t")["s"].sum()) for file in sorted(part.rglob("*.tsv"))), 1)
-        for part in sorted(folder.iterdir())
-        if part.is_dir()
-    }
+def compile_seconds(log: Path) -> float:
+    """The time that a job has spent compiling (s), from its log; 0 if it compiled nothing."""
+    match = re.search(rf"^{COMPILED}([\d.]+) s$", log.read_text(encoding="utf-8"), re.MULTILINE)
+    return float(match[1]) if match else 0.0
+
+
+def costs(benchmarks: Path, logs: Path) -> dict[str, dict[str, float | int]]:
+    """Costs of the jobs in each subfolder of the folder of benchmark files, and of `everything`.
+
+    They are the sum of the wall times (seconds), the part of this sum that was spent compiling, the largest memory of
+    a job (MiB), and the number of jobs.
+    """
+    jobs = []
+    for file in sorted(benchmarks.glob("*/**/*.tsv")):
+        name, measured = file.relative_to(benchmarks), pd.read_csv(file, sep="\t", na_values="-")
+        compiling = compile_seconds((logs / name).with_suffix(".log"))
+        jobs.append((name.parts[0], measured["s"].sum(), compiling, measured["max_rss"].max()))
+    table = pd.DataFrame(jobs, columns=["kind", "seconds", "compiling", "memory"])
+
+    def total(rows: pd.DataFrame) -> dict[str, float | int]:
+        seconds, compiling = (round(float(rows[name].sum()), 1) for name in ("seconds", "compiling"))
+        return {"seconds": seconds, "compiling": compiling, "memory": float(rows.memory.max()), "jobs": len(rows)}
+
+    return {**{str(kind): total(rows) for kind, rows in table.groupby("kind")}, "everything": total(table)}
 
 
 def versions() -> list[str]:
@@ -76,11 +94,13 @@ def versions() -> list[str]:
     return [f"python=={platform.python_version()}", *sorted(packages)]
 
 
-def make(files: list[str], timed: list[str], config: str, benchmarks: str, *, threads: int) -> dict[str, str]:
+def make(
+    files: list[str], timed: list[str], config: str, benchmarks: str, logs: str, *, threads: int
+) -> dict[str, str]:
     """The manifest, and the provenance as JSON.
 
     config : hash of the canonical config
-    benchmarks : folder of the benchmark files
+    benchmarks, logs : folders of the benchmark files and of the logs
     """
     provenance = {
         **sources(ROOT),
@@ -90,7 +110,7 @@ def make(files: list[str], timed: list[str], config: str, benchmarks: str, *, th
         "processor": processor(),
         "processors": os.cpu_count(),
         "threads": threads,
-        "seconds": seconds(Path(benchmarks)),
+        "costs": costs(Path(benchmarks), Path(logs)),
         "versions": versions(),
         "rivals": record_rivals(),
     }

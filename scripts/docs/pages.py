@@ -10,9 +10,7 @@ A template is Markdown (or YAML) with Jinja fields. It can use the facts of docs
     statements        the claims as described by claims.verdicts, by name; quantities have a margin and an uncertainty
     tightened         number of claims evaluated with tighter tolerances
     same_verdicts     number of them whose verdict does not change
-    costs             seconds, `compiling` (seconds of them), memory (MiB) and jobs of all `figures`, of all `claims`,
-                      and of `everything`
-    waiting           seconds until the README's first figure is made: with an empty cache (first), and later
+    costs             of the jobs of the build by kind, and of `everything`, as builds.provenance describes
     gaps              keys of the config whose comment says that the paper leaves them open
     keys              all keys of the config by section, with the values of the default config
     entries           entries of the sections of the paper's config, with their comments
@@ -149,8 +147,7 @@ def make(
     figures: dict[str, dict],
     values: dict[str, float | str],
     captions: list[str] = (),
-    costs: str = "",
-    waiting: str = "",
+    provenance: str = "",
     uncertainty: str = "",
     proved: str = "",
     findings: str = "",
@@ -169,7 +166,7 @@ def make(
     figures : entries of the config, with title and section
     values, proved, findings, columns : for templates, as above
     captions : of all figures, in order
-    costs, waiting : as above, as JSON
+    provenance : of the build, as JSON
     uncertainty : changes of the claims with tighter tolerances, as JSON
     medium : print or site
     folder : folder of the figures, relative to the page
@@ -191,8 +188,7 @@ def make(
         "statements": claims,
         "tightened": len(changes),
         "same_verdicts": sum(one["same_verdict"] for one in changes.values()),
-        "costs": json.loads(costs) if costs else {},
-        "waiting": json.loads(waiting) if waiting else {},
+        "costs": json.loads(provenance)["costs"] if provenance else {},
         "proved": proved,
         "findings": findings,
         "columns": columns,

@@ -24,7 +24,6 @@ FRAME = (TEMPLATES / "article.typ").read_text(encoding="utf-8")
 PROSE = [
     TEMPLATES / "README.md",
     TEMPLATES / "findings.md",
-    TEMPLATES / "figures.md",
     TEMPLATES / "article.md",
     *sorted((TEMPLATES / "site").glob("*.md")),
 ]

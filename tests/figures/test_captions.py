@@ -1,8 +1,5 @@
 """Captions and pages: every number in them comes from a table."""
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 import pytest
@@ -10,7 +7,6 @@ from jinja2 import UndefinedError
 from project import ROOT, read_config
 from prose import typed
 
-from docs import costs, figures_page
 from figures import captions
 
 CONFIG = read_config()
@@ -98,63 +94,6 @@ def test_chaos_before_the_accumulation_is_mentioned():
     none = others | {"branches": orbits[:0], "bifurcations": pd.DataFrame({"kind": []})}
     empty = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **none)
     assert "No initial condition was found to lead to a stable orbit of up to 4 cycles" in empty
-
-
-def test_costs_cover_all_jobs_behind_a_figure():
-    """Jobs in a sequence, and a table that two of them share."""
-    table = pd.DataFrame(
-        [
-            ("figures/a.pdf", "results/logs/figures/a.log", "results/x/late.parquet"),
-            ("results/x/late.parquet", "results/logs/x/late.log", "results/x/early.parquet,results/y/other.parquet"),
-            ("results/x/early.parquet", "results/logs/x/early.log", ""),
-            ("results/y/other.parquet", "results/logs/y/both.log", ""),
-            ("results/y/another.parquet", "results/logs/y/both.log", ""),
-            ("figures/b.pdf", "results/logs/figures/b.log", "results/y/another.parquet"),
-        ],
-        columns=["output_file", "log-file(s)", "input-file(s)"],
-    )
-    folder = "results/benchmarks"
-    assert costs.jobs_of("figures/a.pdf", table) == {
-        f"{folder}/figures/a.tsv",
-        f"{folder}/x/late.tsv",
-        f"{folder}/x/early.tsv",
-        f"{folder}/y/both.tsv",
-    }
-    assert costs.jobs_of("figures/b.pdf", table) == {f"{folder}/figures/b.tsv", f"{folder}/y/both.tsv"}
-
-
-def test_costs_cover_shards_and_states(built, monkeypatch):
-    """A sweep depends on its shards and their states."""
-    monkeypatch.chdir(built.folder)
-    jobs = costs.jobs_of("figures/fig08.pdf", costs.summary(["figures/fig08.pdf"], "Snakefile", []))
-    names = {job.removeprefix("results/benchmarks/") for job in jobs}
-    methods = ("amplitudes", "amplitudes_euler")
-    assert names == {
-        "figures/fig08.tsv",
-        *(f"shards/{name}/0.tsv" for name in methods),
-        *(f"sweeps/{name}.tsv" for name in methods),
-    }
-
-
-def test_costs_name_the_time_to_compile(tmp_path):
-    """From the log of each job; a job that compiled nothing has no such line."""
-    files = {str(tmp_path / f"benchmarks/{name}.tsv") for name in ("first", "later")}
-    for folder in ("benchmarks", "logs"):
-        (tmp_path / folder).mkdir()
-    for file in files:
-        Path(file).write_text("s\tmax_rss\n20.0\t300.0\n")
-    (tmp_path / "logs/first.log").write_text("Compiling the solver.\nTime to compile: 12.5 s\n")
-    (tmp_path / "logs/later.log").write_text("")
-    assert costs.sum_costs(files) == {"seconds": 40.0, "compiling": 12.5, "memory": 300.0, "jobs": 2}
-
-
-@pytest.mark.parametrize("compiling", [0.0, 30.0])
-def test_the_page_of_costs_says_whether_the_cache_was_empty(compiling):
-    one = {"seconds": 60.0, "compiling": compiling, "memory": 300.0, "jobs": 2}
-    template = (ROOT / "workflow/templates/figures.md").read_text(encoding="utf-8")
-    text = figures_page.make(template, json.dumps({"figures": {"fig22": one}, "everything": one}))
-    assert f"| `snakemake figures/fig22.pdf` | 60 | {compiling:.0f} | 300 | 2 |" in text
-    assert ("all came from the cache" in text) == (compiling == 0.0)
 
 
 def test_how_long_a_rigid_part_stays_in_the_first_state():

@@ -36,7 +36,10 @@ ORIGIN = {
     "processor": "one",
     "processors": 2,
     "threads": 1,
-    "seconds": {"figures": 1.5, "orbits": 2.25},
+    "costs": {
+        "figures": {"seconds": 4.0, "compiling": 0.0, "memory": 300.0, "jobs": 2},
+        "everything": {"seconds": 4.0, "compiling": 0.0, "memory": 300.0, "jobs": 2},
+    },
     "versions": ["numpy==1.0"],
 }
 PAGES = [

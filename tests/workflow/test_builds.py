@@ -87,11 +87,27 @@ def test_provenance_is_complete_and_reruns_nothing(builds):
     assert len(recorded["config_sha256"]) == 64
     assert recorded["config_sha256"] == json.loads((builds[0].folder / PROVENANCE).read_text())["config_sha256"]
     assert recorded["threads"] == 1
-    assert recorded["seconds"]["figures"] > 0.0
+    assert recorded["costs"]["figures"]["seconds"] > 0.0
     names = {one.split("==")[0] for one in recorded["versions"]}
     assert {"python", "numpy", "numba", "matplotlib", "python-flint", "pymoo", "snakemake"} <= names
     for project in builds:
         assert project.planned("all") == {}
+
+
+def test_costs_are_sums_over_the_benchmark_files_of_a_kind(tmp_path):
+    """The time to compile comes from the log of each job; a job that compiled nothing has no such line."""
+    benchmarks, logs = tmp_path / "benchmarks", tmp_path / "logs"
+    jobs = {"sweeps/a": ("20.0\t300.0", "Compiled.\nTime to compile: 12.5 s\n"), "sweeps/b/0": ("10.0\t-", "")}
+    for name, (measured, log) in (jobs | {"orbits/c": ("5.0\t400.0", "")}).items():
+        for file in (benchmarks / f"{name}.tsv", logs / f"{name}.log"):
+            file.parent.mkdir(parents=True, exist_ok=True)
+        (benchmarks / f"{name}.tsv").write_text(f"s\tmax_rss\n{measured}\n")
+        (logs / f"{name}.log").write_text(log)
+    assert provenance.costs(benchmarks, logs) == {
+        "orbits": {"seconds": 5.0, "compiling": 0.0, "memory": 400.0, "jobs": 1},
+        "sweeps": {"seconds": 30.0, "compiling": 12.5, "memory": 300.0, "jobs": 2},
+        "everything": {"seconds": 35.0, "compiling": 12.5, "memory": 400.0, "jobs": 3},
+    }
 
 
 def test_the_commit_belongs_to_the_sources(tmp_path):

@@ -61,6 +61,7 @@ rule provenance:
         ],
         config=hashlib.sha256(json.dumps(config).encode()).hexdigest(),
         benchmarks=result("benchmarks"),
+        logs=result("logs"),
     message:
         "The manifest of all results; commit, config, versions and processor of the build"
     script:

@@ -1,5 +1,4 @@
 # Pages of the documentation, the article and the site, made from results.
-import json
 from pathlib import Path
 
 from scripts.conveyor import __version__
@@ -20,7 +19,6 @@ PAGES = {
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
     "checked": tables_of("results/theory", "results/map_check"),
     "cluster": tables_of("results/scaling"),
-    "figures": {"costs": result("costs.json")},
     "identification": tables_of(
         *(f"identification/{name}" for name in ("numbers", "fits", "intervals", "samples", "frictions"))
     ),
@@ -53,7 +51,7 @@ KEPT_PAGES = ("README.md", "metadata.yaml", "codecheck.yml")
 ARTICLE_PARTS = {
     "config": [os.path.relpath(file) for file in DEFAULT_FILES],
     "captions": caption_files(),
-    "costs": result("costs.json"),
+    "provenance": result("provenance.json"),
     "uncertainty": result("uncertainty.json"),
     "proved": f"{DOCS}certificates.md",
 }
@@ -65,11 +63,6 @@ LIBRARY = [
     Path(file).relative_to(source("scripts")).with_suffix("").as_posix()
     for file in sources("scripts/conveyor/**/*.py")
     if not file.endswith("__init__.py")
-]
-# The options of the command line that give Snakemake this config.
-CONFIG_OPTIONS = [
-    *(("--configfile", *OVERLAYS) if OVERLAYS else ()),
-    *(("--config", *(f"{key}={json.dumps(value)}" for key, value in COMMAND_LINE.items())) if COMMAND_LINE else ()),
 ]
 
 
@@ -170,8 +163,7 @@ rule kept_pages:
         unpack(from_paper(FACTS)),
         templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
         findings=result("findings.md"),
-        costs=result("costs.json"),
-        waiting=result("waiting.json"),
+        provenance=result("provenance.json"),
     output:
         [f"{PROJECT}{name}" for name in KEPT_PAGES],
     log:
@@ -282,51 +274,6 @@ rule site:
         "The site"
     script:
         "../../scripts/build_site.py"
-
-
-rule costs:
-    input:
-        figure_files(),
-        map(table, references_of(config["claims"])),
-    output:
-        result("costs.json"),
-    log:
-        log_file("docs/costs"),
-    benchmark:
-        benchmark_file("docs/costs")
-    params:
-        **stage("docs.costs"),
-        figures={name: [figure_file(name)] for name in config["figures"]},
-        claims={name: [*map(table, claim["tables"].values())] for name, claim in config["claims"].items()},
-        snakefile=os.path.relpath(workflow.main_snakefile),
-        options=CONFIG_OPTIONS,
-    message:
-        "The cost of each figure and claim"
-    script:
-        "../../scripts/make.py"
-
-
-# How long a newcomer waits for the README's first figure. Runs alone, with all cores.
-rule waiting:
-    input:
-        figure_file("fig22"),
-    output:
-        result("waiting.json"),
-    log:
-        log_file("docs/waiting"),
-    benchmark:
-        benchmark_file("docs/waiting")
-    threads: CORES
-    resources:
-        slurm_extra="--exclusive",
-    params:
-        **stage("docs.waiting"),
-        snakefile=source("Snakefile"),
-        cores=CORES,
-    message:
-        "Seconds until the first figure is made"
-    script:
-        "../../scripts/make.py"
 
 
 # The pictures of the README, and what the site shows of other conveyors:
