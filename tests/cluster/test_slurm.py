@@ -9,11 +9,12 @@ from project import ROOT, Project, copy_project
 
 import local_slurm
 
+GUIDE = ROOT / "workflow/templates/site/own_sweep.md"
 OBSTACLE = local_slurm.obstacle()
 pytestmark = pytest.mark.skipif(OBSTACLE is not None, reason=f"no Slurm can be started: {OBSTACLE}")
 
-# As the README shows it, in three shards.
-MINE = yaml.safe_load(re.search(r"```yaml\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)[1])
+# The sweep of the guide, in three shards.
+MINE = yaml.safe_load(re.search(r"```yaml\n(.*?)```", GUIDE.read_text(), re.DOTALL)[1])
 OVERLAY = {**MINE, "sharing": {"job_seconds": 4.1, "seconds": {"start": {"alone": [1, 1]}}}}
 TABLE, FIGURE = "results/sweeps/mine.parquet", "figures/fig22.pdf"
 SHARD = "rule_shards_wildcards_mine_1"  # as Snakemake names its job to Slurm
