@@ -22,6 +22,9 @@ MOST_SAMPLES = 2_000_000  # 80 s at 25 kHz; the fit of more takes minutes and gi
 MOST_BYTES = 50 * MOST_SAMPLES
 LEAST_SAMPLES = 64  # eight cycles of eight samples
 MOST_FAULTS = 5
+# Share of the lines that may repeat the time of the line before, as rounded times of random samples do. Where rounding
+# makes more of them equal, it is coarse enough to blur the harmonics.
+MOST_EQUAL = 0.05
 
 
 class RecordingError(ValueError):
@@ -126,7 +129,7 @@ def read_slowly(
     text: str, path: str | Path, first: int, names: list[str], separator: str, used: tuple[str, ...]
 ) -> np.ndarray:
     """The columns `used`, shape (3, n), line by line; RecordingError names each line that has a fault."""
-    rows, faults, before = [], [], -math.inf
+    rows, faults, equal, before = [], [], [], -math.inf
     places = [names.index(name) for name in used]
     for line, fields in fields_of(text, first + 1, separator):
         try:
@@ -138,17 +141,19 @@ def read_slowly(
                     )
                 raise ValueError(f"has {len(fields)} values for {len(names)} columns; leave no field out")
             row = [value_of(name, fields[place], separator) for name, place in zip(used, places, strict=True)]
-            if row[0] <= before:
-                raise ValueError(
-                    f"time = {fields[places[0]]} is not later than the line before; sort the lines, or export the time "
-                    "with more digits"
-                )
+            if row[0] < before:
+                raise ValueError(f"time = {fields[places[0]]} is earlier than the line before; sort the lines")
+            if row[0] == before:
+                equal.append(line)
             before = row[0]
             rows.append(row)
         except ValueError as error:
             faults.append(f"{path}:{line}: {error}")
             if len(faults) == MOST_FAULTS:
                 break
+    if not faults and len(equal) > MOST_EQUAL * len(rows):
+        count = f"and {len(equal) - 1:,} further lines repeat" if len(equal) > 1 else "repeats"
+        faults = [f"{path}:{equal[0]}: {count} the time of the line before; export the time with more digits"]
     if faults:
         raise RecordingError(faults)
     return np.array(rows, dtype=np.float64).reshape(-1, len(used)).T
@@ -166,7 +171,9 @@ def read_columns(
         columns = rows[:, [names.index(name) for name in used]].T
     except (ValueError, IndexError):
         return read_slowly(text, path, first, names, separator, used)
-    is_right = rows.shape[1] == len(names) and np.isfinite(columns).all() and (np.diff(columns[0]) > 0.0).all()
+    steps = np.diff(columns[0])
+    is_ascending = (steps >= 0.0).all() and np.count_nonzero(steps == 0.0) <= MOST_EQUAL * len(rows)
+    is_right = rows.shape[1] == len(names) and np.isfinite(columns).all() and is_ascending
     return columns if is_right else read_slowly(text, path, first, names, separator, used)
 
 

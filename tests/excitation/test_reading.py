@@ -12,7 +12,7 @@ from project import ROOT
 
 import make
 from accelerometer import Drive
-from excitation.faults import RecordingError, checked
+from excitation.faults import RecordingError, checked, first_fit
 from excitation.reading import STANDARD_GRAVITY, parse, read_text
 from workflow.config import ConfigError, load_config
 from workflow.config.files import DEFAULT_FILES, merge, read_all
@@ -26,6 +26,15 @@ def with_line(number: int, content: str) -> str:
     """The good file with another line; lines are numbered from 1."""
     return "\n".join([*LINES[: number - 1], content, *LINES[number:], ""])
 
+
+def with_rounded_times(text: str, digits: int) -> str:
+    """The file with times of fewer digits after the point."""
+    header, *lines = text.splitlines()
+    rows = [line.split(",", 1) for line in lines]
+    return "\n".join([header, *(f"{float(time):.{digits}f},{rest}" for time, rest in rows), ""])
+
+
+COARSE = with_rounded_times(GOOD, 2)
 
 # Text of the file (bytes where it is not text), line of the fault (None for the whole file), and a part of its message.
 BAD_TEXTS = {
@@ -45,8 +54,8 @@ BAD_TEXTS = {
     "too large for a number": (with_line(9, "0.004,1e999,1"), 9, "is not a measured number"),
     "empty field": (with_line(5, "0.002,,1"), 5, "has no along; delete the line"),
     "missing field": (with_line(5, "0.002,1"), 5, "has 2 values for 3 columns"),
-    "time goes back": (with_line(20, LINES[11]), 20, "is not later than the line before"),
-    "equal times": (with_line(20, LINES[18]), 20, "is not later than the line before"),
+    "time goes back": (with_line(20, LINES[11]), 20, "is earlier than the line before; sort the lines"),
+    "times with two digits": (COARSE, 3, "further lines repeat the time of the line before; export the time with"),
     "decimal commas": (
         "time,along,normal\n"
         + "\n".join(line.replace(",", "#").replace(".", ",").replace("#", ",") for line in LINES[1:]),
@@ -205,6 +214,16 @@ def load(tmp_path, overlay, *others):
         files.append(folder / "mine.yaml")
         files[-1].write_text(yaml.safe_dump(content))
     return load_config(DEFAULT_FILES, files, merge(*read_all(files))).config
+
+
+def test_random_times_may_be_equal_after_rounding():
+    drive = replace(DRIVE, random=True, cycles=80.0)
+    rounded = with_rounded_times(drive.text(), 5)
+    times = [line.split(",")[0] for line in rounded.splitlines()]
+    assert len(set(times)) < len(times)
+    recordings = [checked(text, "mine.csv", drive.settings, 50.0) for text in (drive.text(), rounded)]
+    sizes = [np.abs(first_fit(one.time, one.acceleration)[0].amplitudes[:, 0]) for one in recordings]
+    np.testing.assert_allclose(*sizes, rtol=1e-4)
 
 
 def test_the_file_is_relative_to_its_overlay(tmp_path):
