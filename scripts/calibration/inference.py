@@ -140,7 +140,7 @@ def summarize(found: Sample, weights: np.ndarray, settings: dict) -> np.ndarray:
 
 def errors(found: Sample, settings: dict) -> np.ndarray:
     """Monte Carlo errors of what `summarize` gives, shape (d, 3)."""
-    return monte_carlo_error(found, lambda weights: summarize(found, weights, settings))
+    return monte_carlo_error(found.weights, found.search, lambda weights: summarize(found, weights, settings))
 
 
 def agree(found: Sample, settings: dict) -> bool:

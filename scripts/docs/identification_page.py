@@ -55,6 +55,7 @@ def make(
         ),
         "factor": math.sqrt(fits[fits.evidence == "all"].scale.iloc[0]),
         "intervals": {name: rows.to_dict("records") for name, rows in intervals.groupby("evidence", sort=False)},
+        "searches": samples.search.nunique(),
         "valley": correlations(samples, "end_left_out"),
         "left_out": left_out.to_dict("index") | {"worst": misfits.end_left_out[fitted].abs().max()},
         "identifiable": left_out.share.max() >= SURE,

@@ -23,13 +23,13 @@ from identification.edges import VERTICAL
 from identification.findings import VELOCITIES, misfit
 from identification.numbers import CONVERGED, EULER, PARAMETERS, SEARCHED, searched, values_of
 from pipeline import fields
-from pipeline.credible_intervals import interval, open_ends
-from pipeline.importance_sampling import EXACT, effective_number, log_sum, normalize, sample
+from pipeline.credible_intervals import interval, open_ends, quantiles
+from pipeline.importance_sampling import EXACT, effective_number, log_sum, monte_carlo_error, normalize, sample
 
 EVIDENCE = fields.text("evidence", "set of the paper's numbers: see identification.evidence of the config")
 VALUES = tuple(fields.number(name, unit, "parameter") for name, unit in PARAMETERS.items())
 TOTAL = fields.number("total", "1", "sum of squared misfits, each in half an accepted interval")
-SETS = "a set of evidence at its best parameters; at the printed parameters: euler, converged, or interpolated (edges)"
+SETS = "a set of evidence at its lowest total; at the printed parameters: euler, converged, or interpolated (edges)"
 TENSION = fields.text("tension", "mode of a tensile contact force")
 TABLES = {
     "numbers": (
@@ -53,14 +53,24 @@ TABLES = {
     "intervals": (
         EVIDENCE,
         fields.text("parameter", "name"),
-        fields.number("best", "see parameter", "value with the least total"),
-        fields.number("low", "see parameter", "lower end of the credible interval; null for too few effective points"),
+        fields.number("best", "see parameter", "median of the posterior; null for too few effective points"),
+        fields.number("best_error", "see parameter", "standard error of the best value from search to search"),
+        fields.number("low", "see parameter", "lower end of the credible interval"),
+        fields.number("low_error", "see parameter", "standard error of the lower end from search to search"),
         fields.number("high", "see parameter", "upper end of the credible interval"),
+        fields.number("high_error", "see parameter", "standard error of the upper end from search to search"),
         fields.flag("open_low", "whether only the lower bound of the search limits the interval"),
         fields.flag("open_high", "whether only the upper bound of the search limits the interval"),
         fields.number("covered", "1", "share of the searched range that the interval covers, on a logarithmic scale"),
     ),
-    "samples": (EVIDENCE, TENSION, *VALUES, TOTAL, fields.number("weight", "1", "share of the posterior")),
+    "samples": (
+        EVIDENCE,
+        TENSION,
+        *VALUES,
+        TOTAL,
+        fields.number("weight", "1", "share of the posterior"),
+        fields.count("search", "number of the independent search that found it"),
+    ),
     "frictions": (
         fields.number("friction", "1", "coefficient of friction, with the other printed parameters"),
         fields.number("first_low", "cm/s", "first state's velocity at the lower end of the interval with two states"),
@@ -69,6 +79,7 @@ TABLES = {
     ),
 }
 ENOUGH = 100.0  # effective points for an interval
+SEARCHES = 4  # whose differences give the Monte Carlo errors
 FRICTIONS = 65  # values of friction in the table `frictions`
 # Decimals of a misfit. Splines come from LAPACK, whose last digits differ from processor to processor and would decide
 # which points the search draws next.
@@ -106,35 +117,44 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
         totals = total(quantities(np.column_stack([np.full(len(y), bounds[0, 0]), y]), tension, False))
         return -0.5 * totals[None, :, None]
 
-    search = {"first": options["points"], "enough": math.inf, "widths": EXACT}
-    search |= {name: options[name] for name in ("points", "rounds", "seed")}
-    found = {tension: sample(partial(of_states, tension=tension), bounds[:, 1:], **search) for tension in VERTICAL}
+    points = options["points"] // SEARCHES
+    search = {"first": points, "points": points, "rounds": options["rounds"], "enough": math.inf, "widths": EXACT}
+    found = {
+        (tension, number): sample(
+            partial(of_states, tension=tension), bounds[:, 1:], **search, seed=[options["seed"], number]
+        )
+        for tension in VERTICAL
+        for number in range(SEARCHES)
+    }
     least = min(-2.0 * one.log_density.max() for one in found.values())
     scale = max(least / (len(numbers) - len(SEARCHED)), 1.0)
     random = np.random.default_rng(options["seed"])
     samples, fits = [], []
-    for tension, states in found.items():
+    for (tension, number), states in found.items():
         # All errors are scaled up: the density is raised to the power 1/scale. Some weights have underflowed to zero.
         kept = np.flatnonzero(states.weights)
         logs = log(states.weights[kept]) + states.log_density[kept] * (1.0 / scale - 1.0)
-        chosen = random.choice(kept, options["followed"], p=normalize(logs)[0])
+        chosen = random.choice(kept, options["followed"] // SEARCHES, p=normalize(logs)[0])
         x = np.column_stack([random.uniform(*bounds[:, 0], len(chosen)), states.points[chosen]])
         totals = total(quantities(x, tension, True))
         velocities = -0.5 * totals - states.log_density[chosen]
-        # The logarithms of weights also compare both tension modes.
+        # The logarithms of weights also compare both tension modes, and the searches.
         log_weights = states.log_evidence + log_sum(logs) + velocities / scale
-        samples.append(pd.DataFrame(values_of(x, model)).assign(tension=tension, total=totals, weight=log_weights))
+        rows = values_of(x, model)
+        samples.append(pd.DataFrame(rows).assign(tension=tension, search=number, total=totals, weight=log_weights))
+    table = pd.concat(samples, ignore_index=True)
+    table["weight"] = normalize(table.weight.to_numpy())[0]
+    for tension in VERTICAL:
+        own = table[table.tension == tension]
         best = minimize(
             lambda x, tension=tension: total(quantities(x[None], tension, True))[0],
-            x[totals.argmin()],
+            searched(model | own.loc[own.total.idxmin(), list(PARAMETERS)].to_dict())[0],
             method="Nelder-Mead",
             bounds=bounds.T,
         )
         row = {name: float(value[0]) for name, value in values_of(best.x[None], model).items()}
         printed = total(quantities(searched(model), tension, True))
         fits.append({"tension": tension, **row, "total": float(best.fun), "printed_total": float(printed[0])})
-    table = pd.concat(samples, ignore_index=True)
-    table["weight"] = normalize(table.weight.to_numpy())[0]
     by_tension = table.groupby("tension", sort=False).weight
     return table, pd.DataFrame(fits).assign(
         numbers=len(numbers),
@@ -150,18 +170,36 @@ def bounds_of(settings: dict) -> np.ndarray:
     return log(np.array([settings["bounds"][name] for name in SEARCHED]).T)
 
 
-def interval_rows(samples: pd.DataFrame, best: pd.Series, settings: dict) -> pd.DataFrame:
-    """The credible interval of each parameter, found on a logarithmic scale; null if there are too few points."""
-    searched_ends = values_of(bounds_of(settings), settings["model"])
+def interval_rows(samples: pd.DataFrame, settings: dict) -> pd.DataFrame:
+    """The median and the credible interval of each parameter, found on a logarithmic scale.
+
+    The Monte Carlo errors come from the differences between the searches. Too few points give null.
+    """
+    searched_ends, confidence = values_of(bounds_of(settings), settings["model"]), settings["search"]["confidence"]
     weights, rows = samples.weight.to_numpy() / samples.weight.sum(), []
+    is_enough = effective_number(weights) >= ENOUGH
     for name in PARAMETERS:
         logs, bounds = log(samples[name].to_numpy()), log(searched_ends[name])
-        low, high = np.clip(interval(logs, weights, settings["search"]["confidence"]), *bounds)
+
+        def summary(shares: np.ndarray, logs: np.ndarray = logs, bounds: np.ndarray = bounds) -> np.ndarray:
+            return np.clip([*quantiles(logs, shares, [0.5]), *interval(logs, shares, confidence)], *bounds)
+
+        values = errors = np.full(3, math.nan)
+        if is_enough:
+            values = exp(summary(weights))
+            errors = values * monte_carlo_error(weights, samples.search.to_numpy(), summary)
+        best, low, high = values
+        best_error, low_error, high_error = errors
         open_low, open_high = open_ends(logs, weights, bounds)
-        ends = {"low": exp(low), "high": exp(high)}
-        row = {**ends, "open_low": open_low, "open_high": open_high, "covered": (high - low) / np.ptp(bounds)}
-        row |= {} if effective_number(weights) >= ENOUGH else dict.fromkeys((*ends, "covered"), np.nan)
-        rows.append({"parameter": name, "best": best[name], **row})
+        rows.append(
+            {
+                "parameter": name,
+                **{"best": best, "best_error": best_error},
+                **{"low": low, "low_error": low_error, "high": high, "high_error": high_error},
+                **{"open_low": open_low, "open_high": open_high},
+                "covered": math.log(high / low) / np.ptp(bounds),
+            }
+        )
     return pd.DataFrame(rows)
 
 
@@ -184,7 +222,7 @@ def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, 
         best = fits.loc[fits.total.idxmin()]
         at_best = quantities(searched(model | best[list(PARAMETERS)].to_dict()), best.tension)
         rows.append(number_rows(name, at_best, numbers))
-        found = {"samples": samples, "fits": fits, "intervals": interval_rows(samples, best, settings)}
+        found = {"samples": samples, "fits": fits, "intervals": interval_rows(samples, settings)}
         for kind, table in found.items():
             tables[kind].append(table.assign(evidence=name))
     grid = np.tile(printed, (FRICTIONS, 1))

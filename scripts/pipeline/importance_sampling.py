@@ -272,15 +272,18 @@ def pooled(samples: list[Sample]) -> Sample:
     )
 
 
-def monte_carlo_error(found: Sample, summary: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+def monte_carlo_error(
+    weights: np.ndarray, search: np.ndarray, summary: Callable[[np.ndarray], np.ndarray]
+) -> np.ndarray:
     """Standard error of a summary by the jackknife over the searches (Efron and Stein 1981), of the summary's shape.
 
-    summary : function of the weights of all points, shape (n,)
+    weights, search : of all points, and the number of the search that has found each of them, shape (n,)
+    summary : function of the weights
     """
-    searches = np.unique(found.search)
+    searches, all_weights = np.unique(search), weights
     without = []
     for one in searches:
-        weights = np.where(found.search == one, 0.0, found.weights)
+        weights = np.where(search == one, 0.0, all_weights)
         without.append(summary(weights / weights.sum()))
     count = len(searches)
     deviations = np.array(without) - np.mean(without, axis=0)

@@ -49,7 +49,7 @@ def test_both_of_two_distant_modes_are_found_with_their_shares():
     def share(weights):
         return weights[found.points[:, 0] < 0.0].sum()
 
-    error = monte_carlo_error(found, share)
+    error = monte_carlo_error(found.weights, found.search, share)
     assert 0.01 < error < 0.05
     assert share(found.weights) == pytest.approx(0.25, abs=4.0 * error)
 
@@ -66,7 +66,7 @@ def test_the_monte_carlo_error_is_that_of_repetitions():
             return weights @ points[:, 0]
 
         means.append(mean(found.weights))
-        errors.append(monte_carlo_error(found, mean))
+        errors.append(monte_carlo_error(found.weights, found.search, mean))
     assert 0.5 < np.sqrt(np.mean(np.square(errors))) / np.std(means, ddof=1) < 2.0
 
 
@@ -75,7 +75,9 @@ def test_the_monte_carlo_error_of_a_mean_is_its_standard_error():
     values, search = np.random.default_rng(6).normal(size=40), np.repeat(np.arange(4), 10)
     found = Sample(values[:, None], np.zeros(40), np.full(40, 1 / 40), 0.0, 40.0, search)
     means = values.reshape(4, 10).mean(axis=1)
-    assert monte_carlo_error(found, lambda weights: weights @ values) == pytest.approx(means.std(ddof=1) / 2.0)
+    assert monte_carlo_error(found.weights, found.search, lambda weights: weights @ values) == pytest.approx(
+        means.std(ddof=1) / 2.0
+    )
 
 
 def test_searches_count_with_their_evidence():
