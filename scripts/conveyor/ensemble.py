@@ -11,7 +11,7 @@ from .methods import fixed_step
 from .packing import as_rows, check_rows
 from .parallel import for_each_chunk
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
-from .solver import trajectory, vertical_lanes
+from .solver import trajectory
 from .solver.horizontal import SAMPLES, VX, VZ, X, Z
 
 STATUS = trajectory.STATUS
@@ -26,15 +26,12 @@ COLUMNS = (
 def follow_by_events(parameters, durations, tolerance, feeding):
     """The columns of `sweep`, each of shape (n,), for `parameters`, shape (n, 16), and `durations` (s), by events."""
     times = np.column_stack([(1.0 - LAST) * durations, durations])
-    if feeding:
-        samples, results = trajectory.integrate(parameters, times, tolerance=tolerance)
-        before, after = samples[:, 0], samples[:, 1]
-        horizontal = (after[:, X] - before[:, X]) / (LAST * durations), after[:, X], after[:, VX]
-    else:
-        after, results = vertical_lanes.integrate(parameters, times, tolerance=tolerance)
-        horizontal = np.full((3, len(parameters)), np.nan)
+    samples, results = trajectory.integrate(parameters, times, tolerance=tolerance, feeding=feeding)
+    before, after = samples[:, 0], samples[:, 1]
     return {
-        **dict(zip(HORIZONTAL, horizontal, strict=True)),
+        "mean_velocity": (after[:, X] - before[:, X]) / (LAST * durations),
+        "x_end": after[:, X],
+        "vx_end": after[:, VX],
         "z_end": after[:, Z],
         "vz_end": after[:, VZ],
         "max_gap": results[:, trajectory.MAX_GAP],

@@ -1,4 +1,4 @@
-"""Contact steps of several trajectories side by side, which halves the time of maps.
+"""Contact steps of several trajectories side by side, which halves the time of labels.
 
 `step` calls the functions of contact in plain loops over the lanes, which LLVM turns into vector code. A step in which
 an event may be ends in contact, for its lane alone. Lanes follow Hertz contacts (exponent 1.5) whose force may pull,
@@ -21,11 +21,11 @@ LANES = np.int64(8)
 # order: √penetration (√m), speed of approach (m/s), sine and cosine of the phase, and contact.Constants.
 W, V, SINE, COSINE, GRAVITY, A_Z, OMEGA, STIFFNESS, DAMPING = range(9)
 # Further constants; the time and the end of the motion (s); the number of steps taken, up to MAX_PIECES; the length of
-# the step in the variable s up to which the series holds, and the time (s) that a step of this length takes.
-TOLERANCE, SCALE_V, TIME, END, STEPS, LENGTH, LAPSE = range(9, 16)
-RATIO, ROOT = range(16, 18)  # contact.limiting_term
+# the step in the variable s up to which the series holds.
+TOLERANCE, SCALE_V, TIME, END, STEPS, LENGTH = range(9, 15)
+RATIO, ROOT = range(15, 17)  # contact.limiting_term
 # Row SERIES + row + n holds coefficient n of a row of a workspace's step.
-SERIES = 18
+SERIES = 17
 KEPT = (workspace.W, workspace.T, workspace.V, workspace.SINE, workspace.COSINE)
 ROWS = SERIES + SIZE * len(KEPT)
 
@@ -91,7 +91,6 @@ def step(memory, lanes):
         time, steps = memory[place(TIME, lane)], memory[place(STEPS, lane)]
         new_w, new_v = value(memory, workspace.W, lane, length), value(memory, workspace.V, lane, length)
         lapse = value(memory, workspace.T, lane, length)
-        memory[place(LAPSE, lane)] = lapse
         # Comparisons with NaN are false.
         proper = (new_w < HUGE) & (abs(new_v) < HUGE)
         proper &= (lapse <= memory[place(END, lane)] - time) & (steps < MAX_PIECES)
