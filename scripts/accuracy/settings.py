@@ -147,15 +147,6 @@ class SettlingTimes(TypedDict):
     seed: Seed
 
 
-class Scaling(TypedDict):
-    points: many(whole("points", 1000, 10**10), "points of a map")
-    made_whole: whole("up to this number of points all shards are computed", 1000, 10**9)
-    conveyors: many(whole("conveyors", 10, 10**6), "numbers of conveyors")
-    threads: many(whole("threads", 1, 256), "numbers of threads")
-    shards: many(whole("shards", 1, 1000), "numbers of shards")
-    shared_points: whole("points of the maps over threads and shards", 1000, 10**8)
-
-
 SECTIONS = {
     "benchmark": Annotated[Benchmark, Field(description="speed and error of the solver and of the paper's method")],
     "precision": Annotated[Precision, Field(description="error against cost of all methods")],
@@ -164,5 +155,4 @@ SECTIONS = {
     "scene_budget": Annotated[SceneBudget, Field(description="accuracy that each figure needs")],
     "map_check": Annotated[MapCheck, Field(description="check of state maps by brute force")],
     "settling_times": Annotated[SettlingTimes, Field(description="time until a motion settles")],
-    "scaling": Annotated[Scaling, Field(description="cost of sweeps by size, threads and shards")],
 }

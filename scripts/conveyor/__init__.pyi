@@ -112,7 +112,6 @@ from .analysis.amplitude_spectrum import AmplitudeSpectrum, harmonic_spectrum, w
 from .analysis.throw_theory import throw_number, throw_velocity
 
 # What the study of the solver reports of it
-from .solver.contact_lanes import LANES
 from .solver.horizontal import SAMPLES
 from .solver.polynomial import ORDER
 

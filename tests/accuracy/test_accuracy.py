@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 from project import ROOT, merged, read_config
 
-from accuracy import benchmark, precision, precision_estimates
+from accuracy import benchmark, precision
 from conveyor.methods import rivals
 from conveyor.simulation import simulate
 from pipeline import grid
@@ -141,10 +141,3 @@ def test_runs_take_turns_until_each_has_run_long_enough(monkeypatch):
     fast = ["fast"] * 2
     assert made == [*fast, "slow", "slowest", *fast, "slow", *fast]
     assert times == [[0.125] * 6, [0.5] * 2, [2.0]]
-
-
-def test_estimates_on_a_rising_track_follow_gravity_normal_to_it():
-    model = {name: CONFIG["model"][name] for name in ("frequency", "gravity")}
-    level = model | {"gravity": model["gravity"] * np.cos(0.2)}
-    rising = precision_estimates.exponent_rows(model | {"inclination": 0.2}, (0.5,))
-    assert rising == precision_estimates.exponent_rows(level, (0.5,))

@@ -42,6 +42,7 @@ WRONG = [
         {"theory": {"speed": [1.0]}},
         "theory is no setting any more; remove it (its value is a constant in scripts/accuracy",
     ),
+    ({"scaling": {"points": [1000]}}, "scaling is no section any more, because its tables and figures are gone"),
     ({"model": {"mass": -0.1}}, "model.mass = -0.1 should be at least 1e-12 (kg)"),
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),

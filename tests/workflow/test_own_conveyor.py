@@ -305,12 +305,6 @@ def test_scaled_numbers_of_a_list_stay_distinct():
     assert len(set(found)) == len(CONFIG["settling_times"]["acceleration"])
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
-def test_no_fit_over_the_amplitudes_of_the_paper(name):
-    assert settings_of(config_of(example(name)), "results/precision_estimates")["regression"] is None
-    assert settings_of(by_methods(CONFIG), "results/precision_estimates")["regression"]["paper"]
-
-
 def test_tables_made_from_the_claims_of_the_paper_say_so(built):
     run = built.snakemake("results/identification/numbers.parquet", "--dry-run")
     assert run.returncode == 1

@@ -20,7 +20,6 @@ CALLS = {
         "orbits/strobes",
         "sweeps/shards",
     },
-    "accuracy/scaling": {"sweeps/shards"},
     "operating/shares": {"operating/regimes"},
     "calibration/study_table": {"calibration/calibrate", "calibration/prediction"},
     "operating/advice": {"operating/transit"},

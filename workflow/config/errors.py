@@ -33,7 +33,6 @@ CONSTANTS = {
     "drive.drawn": "operating/drive",
     "drive.settled": "operating/drive",
     "precision.reference": "accuracy/reference_check",
-    "precision_estimates": "accuracy/precision_estimates",
     "stability_estimates": "accuracy/stability_estimates",
     "rigid_part": "accuracy/rigid_part",
     "theory": "accuracy/theory",
@@ -55,6 +54,8 @@ CONSTANTS = {
         "orbits/certified",
     ),
 }
+# Sections of earlier versions whose tables no longer exist.
+GONE = ("precision_estimates", "scaling")
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
@@ -99,6 +100,8 @@ def explain(error: dict) -> str:
         return f"{above} has the unknown name {format_value(value)}; {remedy}"
     if kind == "missing":
         return f"{key} is missing"
+    if kind == "extra_forbidden" and key in GONE:
+        return f"{key} is no section any more, because its tables and figures are gone; remove it"
     if kind == "extra_forbidden" and key in CONSTANTS:
         return f"{key} is no setting any more; remove it (its value is a constant in scripts/{CONSTANTS[key]}.py)"
     if kind == "extra_forbidden":

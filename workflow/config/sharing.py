@@ -1,8 +1,8 @@
 """Division of a sweep into jobs: the estimated cost of its rows, and the number of rows per job.
 
 The estimate is coarse: it ignores tolerances and cached motions, and predicts chaos only from whether the plate can
-throw parts (docs/cluster.md compares it with measured jobs). It decides the size of shards, the resources that jobs
-request, and which sweeps are rejected; no number of a table depends on it.
+throw parts. It decides the size of shards, the resources that jobs request, and which sweeps are rejected; no number of
+a table depends on it.
 """
 
 import math

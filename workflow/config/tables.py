@@ -5,14 +5,12 @@ table expects the same settings, so a table that was made from other settings is
 """
 
 import itertools
-import math
 from functools import partial
 from operator import itemgetter
 
 from scripts.identification.settings import POSTERIOR, identification_settings
 
-from .entries import ENTRIES, TIGHTER, fill_defaults, resolve, without_tangential
-from .sharing import THREADS, conveyors_of, plan
+from .entries import ENTRIES, TIGHTER, resolve, without_tangential
 
 
 def model_of(config: dict, section: str = "", *, normal: bool = False) -> dict:
@@ -98,16 +96,6 @@ def calibration_study_settings(config: dict) -> dict:
     return {**study, **box, "calibration": own, "model": model}
 
 
-def paper_fit(config: dict) -> dict | None:
-    """The fit of Eq. 13 over the paper's amplitudes; None for a conveyor whose config has no such fit."""
-    fit = config["regressions"].get("height", {})
-    return fit if "acceleration" in fit else None
-
-
-def precision_estimates_settings(config: dict) -> dict:
-    return {"model": model_of(config), "regression": paper_fit(config)}
-
-
 def precision_settings(config: dict, scene: str) -> dict:
     """One scene of the section `precision`."""
     precision = config["precision"]
@@ -142,42 +130,6 @@ def benchmark_settings(config: dict) -> dict:
         "tolerance": config["solver"]["tolerance"],
         "repeats": config["benchmark"]["repeats"],
     }
-
-
-def scaling_case(config: dict, varied: str, axes: dict, *, shards=None, threads=THREADS) -> dict:
-    """A sweep of the chart of scaling, in the planned number of shards unless `shards` is given."""
-    own = {"axes": axes, "needs": "vertical", "duration": 0.02, "tolerance": 1.0e-6}
-    entry = fill_defaults(config, "sweeps", own)
-    shared = plan(config["sharing"], entry, shards)
-    is_whole = shards or shared.points <= config["scaling"]["made_whole"]
-    return {
-        "varied": varied,
-        "settings": entry,
-        "plan": shared._asdict(),
-        "threads": threads,
-        "conveyors": conveyors_of(axes, shared.points),
-        "measured": shared.shards if is_whole else 1,
-    }
-
-
-def map_axes(points: int) -> dict:
-    """Axes of a map of about `points` initial conditions, as in Fig. 13."""
-    phases = round(points**0.5)
-    z0 = {"start": 0.0, "stop": 0.5e-3, "num": points // phases}
-    return {"psi0": {"start": 0.0, "stop": 2.0 * math.pi * (1.0 - 1.0 / phases), "num": phases}, "z0": z0}
-
-
-def scaling_cases(config: dict) -> list[dict]:
-    """All sweeps of the chart of scaling."""
-    scaling = config["scaling"]
-    few = map_axes(scaling["shared_points"])
-    amplitudes = [{"start": 20.0, "stop": 45.0, "num": number} for number in scaling["conveyors"]]
-    return [
-        *(scaling_case(config, "points", map_axes(points)) for points in scaling["points"]),
-        *(scaling_case(config, "conveyors", {"acceleration": axis}) for axis in amplitudes),
-        *(scaling_case(config, "threads", few, shards=1, threads=threads) for threads in scaling["threads"]),
-        *(scaling_case(config, "shards", few, shards=shards) for shards in scaling["shards"]),
-    ]
 
 
 def certificates_settings(config: dict) -> dict:
@@ -251,7 +203,6 @@ TABLES = {
     "results/claims": lambda config: {"claims": config["claims"]},
     "results/benchmark": benchmark_settings,
     "results/reference_check": reference_settings,
-    "results/precision_estimates": precision_estimates_settings,
     "results/stability": itemgetter("stability"),
     "results/stability_estimates": lambda config: {"model": model_of(config)},
     "results/scene_budget": itemgetter("scene_budget"),
@@ -261,11 +212,10 @@ TABLES = {
     "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),
     "results/calibration_study": calibration_study_settings,
-    "results/scaling": lambda config: {**config["scaling"], "sharing": config["sharing"]},
 }
 # Tables that only an explicit target makes.
 ON_REQUEST = (
-    *("results/scaling", "results/calibration_study"),
+    "results/calibration_study",
     *(f"excitation/{name}" for name in (*EXCITATION_TABLES, "comparison")),
     *(f"calibration/{name}" for name in CALIBRATION_TABLES),
 )

@@ -1,6 +1,6 @@
 # How accurate, fast and robust the solver is, compared with other methods. Jobs that measure wall times run alone: they take
 # all cores here, and a node of their own on a cluster.
-from workflow.config.tables import budgeted_entries, budgeted_tables, paper_fit, scaling_cases
+from workflow.config.tables import budgeted_entries, budgeted_tables
 
 
 rule benchmark:
@@ -45,12 +45,10 @@ rule precision:
         "../../scripts/make.py"
 
 
-PAPER_FIT = paper_fit(config)
 # The tables that each table of the rule `accuracy` is made from; most are made from the config alone.
 COMPARED_TABLES = {
     **dict.fromkeys(("stability", "stability_estimates", "settling_times", "reference_check"), {}),
     "map_check": {"maps": [table(f"sweeps/{name}") for name in config["map_check"]["maps"]]},
-    "precision_estimates": {"critical": table(f"critical/{PAPER_FIT['critical']}")} if PAPER_FIT else {},
     "rigid_part": tables_of("orbits/folds_and_doublings", "orbits/cascade", "sweeps/amplitudes"),
     "theory": tables_of("orbits/cascade"),
 }
@@ -97,25 +95,5 @@ rule scene_budget:
         drawn=budgeted_tables(config),
     message:
         "Accuracy that the data of each figure need"
-    script:
-        "../../scripts/make.py"
-
-
-# On request, because it takes minutes: snakemake figures/scaling.pdf
-rule scaling:
-    output:
-        scaling=table("results/scaling"),
-    log:
-        log_file("accuracy/scaling"),
-    benchmark:
-        benchmark_file("accuracy/scaling")
-    threads: CORES
-    resources:
-        slurm_extra="--exclusive",
-    params:
-        **stage("accuracy.scaling", "results/scaling"),
-        cases=scaling_cases(config),
-    message:
-        "Cost of sweeps of all sizes"
     script:
         "../../scripts/make.py"

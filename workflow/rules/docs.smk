@@ -18,7 +18,6 @@ PAGES = {
     "calibration_study": tables_of("results/calibration_study"),
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
     "checked": tables_of("results/theory", "results/map_check"),
-    "cluster": tables_of("results/scaling"),
     "identification": tables_of(
         *(f"identification/{name}" for name in ("numbers", "fits", "intervals", "samples", "frictions"))
     ),
