@@ -5,15 +5,13 @@ from typing import Annotated
 from pydantic import Field
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import Model, Name, Tolerance, many, mapping, number, whole
+from ..pipeline.settings import Model, Name, many, mapping, number
 
 
 class Companion(TypedDict):
     maps: many(Name, "sweeps over two parameters")
     opening: Annotated[Name, Field(description="preset with which the page opens")]
     presets: Annotated[dict[Name, Model], Field(description="conveyors of the page", min_length=1)]
-    tolerance: Tolerance
-    cycles: whole("cycles within which a motion must repeat itself", 256, 10**9, "excitation cycles")
     separation: number("initial distance of the second part", "m", gt=0, le=1)
 
 

@@ -1,9 +1,10 @@
 """The companion in headless Chromium: agreement with the library, and use by mouse and keyboard."""
 
+import json
 import math
 import re
 import time
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,6 @@ import pandas as pd
 import pytest
 from browser import chromium
 from project import read_config
-from random_conveyors import around_the_paper
 from selenium import webdriver
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
@@ -21,7 +21,7 @@ from conveyor.analysis.attractors import labels
 from conveyor.methods import fixed_step
 from conveyor.simulation import Run, simulate
 from conveyor.solver import model
-from conveyor.solver.model import Conveyor, Start, pack, unpack
+from conveyor.solver.model import Conveyor, Start, pack
 from docs.companion import build
 from pipeline import grid
 from pipeline.rule_log import JobError
@@ -29,10 +29,8 @@ from workflow.config.entries import resolve
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = read_config()
-TOLERANCE = CONFIG["companion"]["tolerance"]
 MAPS = ("map_height", "map_amplitude", "map_velocity")
-# Largest relative change of a regular run's numbers if the phase changes by 1e-9: errors grow by at most 100.
-SENSITIVITY = 1e-7
+SETTINGS = 200  # random ones, at which the accuracy is measured
 PHONE, DESKTOP = (360, 740), (1280, 900)
 PLOTS = ("velocity", "height", "contact", "friction", "phase", "distance")
 
@@ -133,65 +131,26 @@ def browser(address, tmp_path_factory):
 # -- the numbers -------------------------------------------------------------------------------------------------------
 
 
-def near_the_paper(count: int, seed: int) -> np.ndarray:
-    """Packed parameters, shape (count, 16), of the paper's conveyor at random amplitudes, starts and tensions."""
-    generator = np.random.default_rng(seed)
-    points = np.tile(pack(Conveyor(), Start()), (count, 1))
-    points[:, model.ACCELERATION] = generator.uniform(20.0, 60.0, count)
-    points[:, model.PSI0] = generator.uniform(0.0, 2.0 * math.pi, count)
-    points[:, model.TENSION] = generator.integers(len(model.TENSION_MODES), size=count)
-    points[:, model.Z0] = generator.uniform(0.0, 0.5e-3, count)
-    return points
-
-
-def as_feeders(points: np.ndarray, seed: int) -> np.ndarray:
-    """The packed parameters with random inclinations, phase shifts and coefficients of static friction."""
-    count, generator = len(points), np.random.default_rng(seed)
-    points[:, model.INCLINATION] = generator.uniform(-0.3, 0.3, count)
-    points[:, model.PHASE_SHIFT] = generator.uniform(-2.0 * math.pi, 2.0 * math.pi, count)
-    points[:, model.STATIC_FRICTION] = points[:, model.FRICTION] * generator.choice([1.0, 1.2, 2.0], count)
-    return points
-
-
-def quantities(run: Run) -> np.ndarray:
-    """Mean feeding velocity, impact speed, peak force, end state and impact times."""
-    impacts = run.events["time"][run.events["kind"] == "impact"]
-    measures = run.mean_velocity(), run.impact_speed, run.peak_force
-    return np.array([*measures, run.x_end, run.vx_end, run.z_end, run.vz_end, *impacts])
-
-
-def relative_error(found: np.ndarray, truth: np.ndarray) -> float:
-    """The largest relative error; infinite for unequal lengths. It is zero for equal numbers, also if they are zero."""
-    if len(found) != len(truth):
-        return math.inf
-    return float(np.max(np.abs(found - truth) / np.where(found == truth, 1.0, np.abs(truth))))
-
-
-def is_regular(run: Run, shifted: Run) -> bool:
-    """Whether a run at a slightly different phase has the same events and nearly the same numbers."""
-    if not run.status == shifted.status == "ok" or list(run.events["kind"]) != list(shifted.events["kind"]):
-        return False
-    found, other = quantities(run), quantities(shifted)
-    # A number that is zero up to rounding has no relative error.
-    fastest = run.conveyor.acceleration / (2.0 * math.pi * run.conveyor.frequency)
-    return abs(found[0]) > 1e-9 * fastest and relative_error(found, other) < SENSITIVITY
-
-
-def regular_runs(points: np.ndarray, count: int, cycles: float) -> list[Run]:
-    """The first `count` regular runs among random points, each over a number of excitation cycles."""
+def random_settings() -> list[tuple[Conveyor, Start]]:
+    """Settings of the page: half within its main controls, half within the ranges of all of its sliders."""
+    generator = np.random.default_rng(1)
     found = []
-    for point in points:
-        conveyor, start = unpack(point)
-        duration = cycles / conveyor.frequency
-        run, shifted = (
-            simulate(replace(conveyor, psi0=conveyor.psi0 + shift), start, duration=duration, tolerance=TOLERANCE)
-            for shift in (0.0, 1e-9)
-        )
-        if is_regular(run, shifted):
-            found.append(run)
-        if len(found) == count:
-            return found
-    raise AssertionError(f"only {len(found)} of {len(points)} runs are regular")
+    for k in range(SETTINGS):
+        values = {"acceleration": generator.uniform(0.0, 100.0), "psi0": generator.uniform(0.0, 6.28)}
+        start = Start(generator.uniform(0.0, 1e-3))
+        if k % 2:
+            start = Start(start.z, generator.uniform(-0.5, 0.5))
+            uniform = {
+                **{"frequency": (5.0, 200.0), "angle": (0.0, math.pi / 2), "phase_shift": (-math.pi, math.pi)},
+                **{"inclination": (-0.35, 0.35), "friction": (0.0, 1.0), "damping": (0.0, 2.0)},
+                **{"exponent": (1.0, 3.0), "gravity": (0.1, 25.0)},
+            }
+            values |= {name: generator.uniform(*limits) for name, limits in uniform.items()}
+            values |= {"stiffness": 10.0 ** generator.uniform(3.0, 9.0), "mass": 10.0 ** generator.uniform(-5.0, -1.0)}
+            values["static_friction"] = values["friction"] * generator.choice([1.0, 1.5])
+        tension = str(generator.choice(model.TENSION_MODES))
+        found.append((Conveyor(**{name: float(value) for name, value in values.items()}, tension=tension), start))
+    return found
 
 
 def parameters_of(conveyor: Conveyor, start: Start) -> dict:
@@ -199,71 +158,91 @@ def parameters_of(conveyor: Conveyor, start: Start) -> dict:
 
 
 FOLLOW = """
-const [cases, tolerance, last] = arguments;
+const [cases, count, last, line] = arguments;
 return cases.map(([parameters, duration]) => {
-  const run = solver.follow(parameters, duration, {tolerance});
-  const {x, vx, z, vz} = run.at(run.end);
-  const impacts = run.impacts().map((impact) => impact.time);
+  const run = solver.follow(parameters, duration);
+  if (run.status !== "ok") return { status: run.status };
+  const resolved = solver.resolvedUntil(run, solver.follow(parameters, duration, 2), line);
+  const times = Array.from({ length: count }, (_, k) => (k * duration) / (count - 1));
+  const parts = times.map((time) => run.at(time));
+  const columns = Object.fromEntries(Object.keys(parts[0]).map((name) => [name, parts.map((one) => one[name])]));
   const measures = [run.meanVelocity(last), run.impactSpeed(last), run.peakForce(last)];
-  const values = [...measures, x, vx, z, vz, ...impacts];
-  return {status: run.status, values, kinds: run.events.map((event) => event.kind)};
+  return { status: "ok", resolved, columns, measures, impacts: run.impacts };
 });
 """
+POINTS = 1001
 
 
-def test_agrees_with_the_library_on_160_regular_cases(browser):
-    around = around_the_paper(300, 1)
-    around[:, [model.INCLINATION, model.PHASE_SHIFT]] = 0.0
-    around[:, model.STATIC_FRICTION] = around[:, model.FRICTION]
-    runs = [
-        *regular_runs(around, 40, 20.0),
-        *regular_runs(near_the_paper(300, 2), 40, 50.0),
-        *regular_runs(as_feeders(around_the_paper(300, 4), 5), 40, 20.0),
-        *regular_runs(as_feeders(near_the_paper(300, 6), 7), 40, 50.0),
-    ]
-    assert {run.conveyor.tension for run in runs} == set(model.TENSION_MODES)
-    assert {1.0, 1.5} < {run.conveyor.exponent for run in runs}
-    assert {"stick", "slip"} < {kind for run in runs[80:] for kind in run.events["kind"]}
-    browser.open()
-    cases = [[parameters_of(run.conveyor, run.start), run.duration] for run in runs]
-    found = browser.run(FOLLOW, cases, TOLERANCE, build.LAST)
-    assert all(one["status"] == "ok" for one in found)
-    assert [one["kinds"] for one in found] == [list(run.events["kind"]) for run in runs]
-    errors = [relative_error(np.array(one["values"]), quantities(run)) for one, run in zip(found, runs, strict=True)]
-    print(f"largest relative error {max(errors):.1e}")
-    assert max(errors) < 1e-10
+def follow(browser, cases: list[tuple[Conveyor, Start, float]]) -> list[dict]:
+    """Trajectories of the page at POINTS even times."""
+    given = [[parameters_of(conveyor, start), duration] for conveyor, start, duration in cases]
+    return browser.run(FOLLOW, given, POINTS, build.LAST, build.LINE)
 
 
-def test_samples_between_the_events_agree_with_the_library(browser):
-    conveyor, start = Conveyor(acceleration=47.0, tension="clip"), Start("conveyor")
-    run = simulate(conveyor, start, duration=0.3, tolerance=TOLERANCE)
-    times = np.linspace(0.0, 0.3, 701)
-    browser.open()
-    script = "const run = solver.follow(arguments[0], 0.3, {tolerance: arguments[1]});"
-    script += "return arguments[2].map((time) => run.at(time))"
-    found = pd.DataFrame(browser.run(script, parameters_of(conveyor, start), TOLERANCE, times.tolist()))
+def deviation(found: dict, run: Run, duration: float) -> float:
+    """Largest deviation of the curves of z and vx until they are resolved, in units of the heights of their plots."""
+    times = np.linspace(0.0, duration, POINTS)
+    seen = times <= found["resolved"]
     truth = run.sample(times)
-    for name, column in (
-        ("contact_force", "contactForce"),
-        ("friction_force", "frictionForce"),
-        ("x", "x"),
-        ("z", "z"),
-    ):
-        assert np.max(np.abs(found[column] - truth[name])) < 1e-8 * np.max(np.abs(truth[name])), name
+    conveyor, omega = run.conveyor, 2.0 * math.pi * run.conveyor.frequency
+    plate = {
+        "z": conveyor.acceleration * math.sin(conveyor.angle) / omega**2,
+        "vx": conveyor.acceleration * math.cos(conveyor.angle) / omega,
+    }
+    return max(
+        float(np.max(np.abs(np.array(found["columns"][name]) - truth[name])[seen]))
+        / np.ptp([*truth[name], -plate[name], plate[name]])
+        for name in ("z", "vx")
+    )
 
 
-def test_states_of_motion_agree_with_the_library(browser):
-    # 55 m/s²: an orbit of two cycles; 80 m/s²: chaos, which the page must not claim.
-    points = np.concatenate([near_the_paper(40, 3), np.tile(pack(Conveyor(), Start()), (2, 1))])
-    points[-2:, model.ACCELERATION] = 55.0, 80.0
-    found = labels.classify(points)
-    truth, periods = found.state, found.period
-    assert {"first", "second", "chaos"} <= set(truth)
+def test_the_stated_accuracy_is_measured(browser):
     browser.open()
-    script = "return arguments[0].map((parameters) => solver.settle(parameters, 500, {tolerance: arguments[1]}))"
-    found = browser.run(script, [parameters_of(*unpack(point)) for point in points], TOLERANCE)
-    expected = [(state if period else None, period or None) for state, period in zip(truth, periods, strict=True)]
-    assert [(one["state"], one.get("period")) for one in found] == expected
+    cases = [(*setting, 20.0 / setting[0].frequency) for setting in random_settings()]
+    within, errors = 0, []
+    for (conveyor, start, duration), found in zip(cases, follow(browser, cases), strict=True):
+        assert found["status"] == "ok"
+        run = simulate(conveyor, start, duration=duration, tolerance=1e-11)
+        within += int(deviation(found, run, duration) <= build.LINE)
+        if found["resolved"] == duration and run.mean_velocity() != 0.0:
+            errors.append(abs(found["measures"][0] / run.mean_velocity() - 1.0))
+    assert len(errors) > 0.6 * SETTINGS
+    measured = {
+        "settings": SETTINGS,
+        "within_a_line": within,
+        "median_velocity_error": float(f"{np.median(errors):.0e}"),
+    }
+    assert within >= 0.95 * SETTINGS
+    stored = json.loads((build.HERE / "accuracy.json").read_text(encoding="utf-8"))
+    assert stored == measured, "store the measured accuracy in accuracy.json"
+
+
+@pytest.mark.parametrize(("acceleration", "z0"), [(30.0, 0.0), (40.0, 0.3e-3), (47.0, 0.0), (52.5, 0.0)])
+def test_mean_velocities_agree_with_the_library(browser, acceleration, z0):
+    browser.open()
+    conveyor, start = Conveyor(acceleration=acceleration), Start(z0)
+    (found,) = follow(browser, [(conveyor, start, 1.0)])
+    run = simulate(conveyor, start, duration=1.0)
+    assert found["resolved"] == 1.0
+    assert found["measures"] == pytest.approx([run.mean_velocity(), run.impact_speed, run.peak_force], 1e-3, 1e-4)
+    times = run.events["time"][run.events["kind"] == "impact"]
+    assert [impact["time"] for impact in found["impacts"]] == pytest.approx(times, abs=2e-5)
+
+
+def test_forces_agree_with_the_library(browser):
+    feeder = Conveyor(acceleration=47.0, tension="clip", inclination=0.05, phase_shift=1.0, static_friction=0.3)
+    cases = [(conveyor, Start("conveyor"), 0.3) for conveyor in (feeder, Conveyor(acceleration=47.0))]
+    browser.open()
+    for (conveyor, start, duration), found in zip(cases, follow(browser, cases), strict=True):
+        truth = simulate(conveyor, start, duration=duration).sample(np.linspace(0.0, duration, POINTS))
+        for name, column in (("contact_force", "contactForce"), ("friction_force", "frictionForce")):
+            errors = np.abs(np.array(found["columns"][column]) - truth[name]) / np.ptp(truth[name])
+            # A force that jumps does so within one step.
+            assert np.quantile(errors, 0.98) < build.LINE, name
+        rests = (truth["contact_force"] > 0.0) & (
+            np.abs(truth["friction_force"]) < 0.9 * conveyor.friction * truth["contact_force"]
+        )
+        assert np.mean((np.array(found["columns"]["motion"]) == "stick") == rests) > 0.98
 
 
 def test_euler_agrees_with_the_library(browser):
@@ -272,10 +251,10 @@ def test_euler_agrees_with_the_library(browser):
     for changes in (*({"tension": tension} for tension in model.TENSION_MODES), feeder, {"static_friction": 0.4}):
         conveyor, start = Conveyor(**changes), Start(0.3e-3)
         truth = fixed_step.run(pack(conveyor, start), 0.2, 5e-7)
-        script = "const run = solver.euler(arguments[0], 0.2, 5e-7, 20); const {x, vx, z, vz} = run.at(0.2);"
+        script = "const run = solver.euler(arguments[0], 0.2, 5e-7); const {x, vx, z, vz} = run.at(0.2);"
         found = browser.run(script + "return [x, vx, z, vz, run.meanVelocity(0.25)]", parameters_of(conveyor, start))
         expected = [truth.x, truth.vx, truth.z, truth.vz, truth.mean_velocity]
-        assert relative_error(np.array(found), np.array(expected)) < 1e-9
+        assert found == pytest.approx(expected, rel=1e-9)
 
 
 # -- what is shown -----------------------------------------------------------------------------------------------------
@@ -286,56 +265,46 @@ def test_shows_what_the_library_finds(browser):
         browser.open("#" + "&".join(f"{key}={value}" for key, value in CONFIG["companion"]["presets"][name].items()))
         values = {**CONFIG["model"], **CONFIG["companion"]["presets"][name]}
         start = Start(values.pop("z0"), values.pop("vz0"))
-        run = simulate(Conveyor(**values), start, duration=CONFIG["solver"]["duration"], tolerance=TOLERANCE)
+        run = simulate(Conveyor(**values), start, duration=CONFIG["solver"]["duration"])
         if name in build.STATES:
             assert browser.text("state").lower().startswith(f"{name} state")
-        assert browser.velocity() == pytest.approx(run.mean_velocity(), rel=1e-6)
-        assert browser.number("impact-speed") == pytest.approx(run.impact_speed, rel=1e-4)
-        assert browser.number("peak-force") == pytest.approx(run.peak_force, rel=1e-4)
+        assert ("No map" in browser.text("state")) == (name == "climbing_track")
+        assert browser.velocity() == pytest.approx(run.mean_velocity(), rel=1e-3)
+        assert browser.number("impact-speed") == pytest.approx(run.impact_speed, rel=1e-3)
+        assert browser.number("peak-force") == pytest.approx(run.peak_force, rel=1e-3)
         rows = browser.run(
             "return [...document.querySelectorAll('#impacts tr')].map((row) => row.cells[1].textContent)"
         )
         impacts = run.events["time"][run.events["kind"] == "impact"]
-        assert [float(row) for row in rows] == pytest.approx(impacts.tolist(), abs=1e-9)
-
-
-@pytest.mark.parametrize("start", [Start("conveyor"), Start("conveyor", vz=-0.1)])
-@pytest.mark.parametrize("psi0", [0.5, 2.0, 4.0])
-def test_a_part_that_starts_on_the_plate_is_as_sharp_as_another(browser, start, psi0):
-    browser.open(f"#acceleration=40&z0=conveyor&psi0={psi0}&vz0={start.vz}")
-    run = simulate(Conveyor(psi0=psi0), start, duration=CONFIG["solver"]["duration"], tolerance=TOLERANCE)
-    assert "rounding" not in browser.text("velocity") + browser.text("impacts-note")
-    assert browser.velocity() == pytest.approx(run.mean_velocity(), rel=1e-6)
+        assert [float(row) for row in rows] == pytest.approx(impacts.tolist(), abs=2e-5)
 
 
 def test_nothing_moves_a_part_along_a_plate_at_rest(browser):
     browser.open("#acceleration=0&z0=0.0003")
     assert browser.velocity() == 0.0
-    case = [parameters_of(Conveyor(acceleration=0.0), Start(3e-4)), 0.1]
-    (found,) = browser.run(FOLLOW, [case], TOLERANCE, build.LAST)
-    assert [found["values"][k] for k in (0, 3, 4)] == [0.0, 0.0, 0.0]
 
 
-def test_slow_convergence_is_not_called_chaos(browser):
+def test_a_state_comes_from_a_map_or_is_not_named(browser):
     browser.open("#acceleration=80")
-    assert browser.text("state").startswith("Not converged within")
-    assert "map shows chaos" in browser.text("state")
-    # The page does not show digits that depend on rounding; shifting the part by the size of an atom changes them.
+    assert browser.text("state").startswith("Chaos")
+    assert "comes from a map" in browser.text("state")
+    # The page does not show digits that depend on its step.
     for measure in ("velocity", "impact-speed", "peak-force"):
-        assert "rounding decides" in browser.text(measure)
+        assert "depends on the step" in browser.text(measure)
         assert len(re.match(r"0\.0*(\d+) ", browser.text(measure))[1]) <= 2
+    assert "another step gives other impacts" in browser.text("impacts-note")
     # Without a map for this conveyor the page does not call the motion chaos.
     browser.open("#acceleration=80&damping=0.29")
-    assert browser.text("state").startswith("Not converged within")
-    assert "Slow convergence alone is not chaos" in browser.text("state")
+    assert browser.text("state").startswith("The part jumps")
+    assert "No map" in browser.text("state")
 
 
-def test_a_run_that_gives_up_says_so_and_draws_nothing(browser):
+def test_a_run_with_too_many_steps_says_so_and_draws_nothing(browser):
     browser.open("#frequency=20000")
     alert = browser.driver.find_element(By.ID, "failure")
     assert alert.get_attribute("role") == "alert"
     assert alert.is_displayed()
-    assert "gave up" in alert.text
+    assert "draws nothing" in alert.text
     assert not browser.driver.find_element(By.ID, "shown").is_displayed()
     assert "not known" in browser.text("velocity")
 
@@ -379,7 +348,7 @@ def test_a_second_part_converges_or_separates(browser):
 
 
 def test_an_euler_that_blows_up_is_not_drawn(browser):
-    for choice, drawn in (("#z0=0.0003", True), ("#stiffness=1e15", False)):
+    for choice, drawn in (("#z0=0.0003", True), ("#stiffness=1e9&exponent=1&damping=2&mass=0.0005&z0=0.0003", False)):
         browser.open(choice)
         browser.driver.find_element(By.ID, "euler").click()
         browser.until("return !document.getElementById('euler-velocity').textContent.includes('…')")
@@ -391,7 +360,7 @@ def test_an_euler_that_blows_up_is_not_drawn(browser):
 
 @pytest.mark.parametrize("size", [PHONE, DESKTOP])
 def test_no_errors_and_no_cut_text(browser, size):
-    for choice in ("", "#acceleration=80", "#z0=conveyor&tension=clip", "#stiffness=1e15&exponent=1"):
+    for choice in ("", "#acceleration=80", "#z0=conveyor&tension=clip", "#stiffness=1e9&exponent=1"):
         browser.open(choice, size)
         browser.run("document.querySelector('details').open = true; document.getElementById('euler').click()")
         browser.until("return !document.getElementById('euler-velocity').textContent.includes('…')")
@@ -453,8 +422,8 @@ def test_sliders_by_keyboard(browser):
     browser.until("return location.hash.includes('acceleration=40.2')")
     assert browser.velocity() != before
     conveyor = Conveyor(acceleration=40.2)
-    truth = simulate(conveyor, Start(0.3e-3), tolerance=TOLERANCE).mean_velocity()
-    assert browser.velocity() == pytest.approx(truth, rel=1e-6)
+    truth = simulate(conveyor, Start(0.3e-3)).mean_velocity()
+    assert browser.velocity() == pytest.approx(truth, rel=1e-3)
 
 
 def test_the_map_by_keyboard(browser):

@@ -55,7 +55,7 @@ def test_no_exponent_after_the_states(edited):
 @pytest.mark.parametrize(
     ("file", "old", "new"),
     [
-        ("scripts/docs/companion/solver/polynomials.js", "const ORDER = 16;", "const ORDER = 14;"),
+        ("scripts/docs/companion/solver.js", "const CYCLE_STEP = 1 / 1000;", "const CYCLE_STEP = 1 / 500;"),
         ("scripts/docs/companion/page.css", "--paper: #ffffff;", "--paper: #fffffe;"),
         ("scripts/docs/companion/build.py", "LAST = 0.25", "LAST = 0.2"),
         ("scripts/figures/style.py", '"#0072B2"', '"#123456"'),
@@ -67,7 +67,7 @@ def test_the_companion_after_its_sources(edited, file, old, new):
 
 def test_the_companion_after_its_model(built):
     assert built.planned("docs/companion.html") == {}
-    assert built.under({"companion": {"cycles": 300}}).planned("docs/companion.html") == {"companion": 1}
+    assert built.under({"companion": {"separation": 1.0e-5}}).planned("docs/companion.html") == {"companion": 1}
 
 
 @pytest.mark.parametrize(

@@ -120,7 +120,7 @@ rule claims_page:
 
 rule companion:
     input:
-        sources("scripts/docs/companion/**/*.js") + sources("scripts/docs/companion/page.*"),
+        sources("scripts/docs/companion/*.js*") + sources("scripts/docs/companion/page.*"),
         maps=[table(f"sweeps/{name}") for name in config["companion"]["maps"]],
     output:
         f"{DOCS}companion.html",

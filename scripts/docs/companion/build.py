@@ -13,10 +13,10 @@ from pipeline.rule_log import JobError
 
 HERE = Path(__file__).parent
 # Files inserted into page.html, each in place of the comment with its name.
-SOLVER = ("polynomials", "conveyor", "flight", "contact", "friction", "trajectory", "attractor", "euler")
-SCRIPTS = ("shared", "controls", "state_maps", "plots", "scene", "page")
-PARTS = ("page.css", *(f"solver/{name}.js" for name in SOLVER), *(f"{name}.js" for name in SCRIPTS))
+SCRIPTS = ("solver", "shared", "controls", "state_maps", "plots", "scene", "page")
+PARTS = ("page.css", *(f"{name}.js" for name in SCRIPTS))
 STATES = tuple(style.STATE_COLOURS)
+LINE = 0.01  # width of a line in units of a plot's range
 LAST = 0.25  # share of the run over which the paper takes mean velocities (Sect. 3.1)
 
 
@@ -52,6 +52,16 @@ def encode(table: pd.DataFrame) -> dict:
     return {**axes, "model": model, "states": base64.b64encode(packed.tobytes()).decode()}
 
 
+def accuracy_text(measured: dict) -> str:
+    """How far the page is from the library, as tests/docs/test_companion.py measures it in a browser."""
+    return (
+        f"Tests compare the page with an accurate solution at {measured['settings']} random settings of its controls. "
+        f"At {measured['within_a_line']} settings, the curves of height and velocity differ by less than "
+        f"{100 * LINE:g} % of the height of their plots, as long as the page does not mark the motion as unresolved. "
+        f"Half of the mean velocities have a relative error below {100 * measured['median_velocity_error']:.1g} %."
+    )
+
+
 def make(maps: list[pd.DataFrame], settings: dict) -> str:
     """The whole page.
 
@@ -72,8 +82,9 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
         "ranges": RANGES,
         "tangential": TANGENTIAL,
         "solver": {name: settings["solver"][name] for name in ("duration", "step")},
-        **{name: own[name] for name in ("tolerance", "cycles", "separation", "presets", "opening")},
+        **{name: own[name] for name in ("separation", "presets", "opening")},
         "last": LAST,
+        "line": LINE,
         "states": STATES,
         "colours": style.STATE_COLOURS,
         "euler": style.EULER,
@@ -82,6 +93,7 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
     text = (HERE / "page.html").read_text(encoding="utf-8")
     parts = {name: (HERE / name).read_text(encoding="utf-8").strip() for name in PARTS}
     # "</" could end the script element; "<\/" is the same in JSON.
+    parts["accuracy"] = accuracy_text(json.loads((HERE / "accuracy.json").read_text(encoding="utf-8")))
     parts["data"] = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("</", "<\\/")
     for name, part in parts.items():
         mark = f"/* {name} */"

@@ -95,7 +95,7 @@ function addControl([name, control]) {
 
 /* Height of the plate at the beginning of the run. */
 function plateHeight() {
-  return solver.plate(solver.constants(chosen, data.tolerance), 0).z;
+  return solver.plate(solver.constants(chosen), 0).z;
 }
 
 function choose(changes) {

@@ -6,10 +6,10 @@ const CYCLES_IN_VIEW = [2, 4, 10, 25, Infinity];
 // Excitation cycles by which a step button moves, and impacts that the table shows.
 const STEP = 0.02;
 const ROWS = 1000;
-// An impact time counts as determined by the initial condition if it changes by less than SHARP (s) when the height at
-// the start changes by BLUR (m), which is about the rounding error of a height.
-const BLUR = 1e-13;
-const SHARP = 1e-6;
+// A flight that is longer than this, in excitation cycles, is a jump, as in the state maps.
+const LONG_FLIGHT = 0.5;
+// Digits of the results, which the accuracy of the page justifies.
+const DIGITS = 4;
 // A smaller velocity (m/s) or force (N) is a rounding error.
 const ROUNDING = 1e-12;
 
@@ -36,17 +36,15 @@ function request() {
 }
 
 function compute() {
-  const options = { tolerance: data.tolerance };
-  const height = chosen.z0 === "conveyor" ? plateHeight() : chosen.z0;
-  const higher = (by) => solver.follow({ ...chosen, z0: height + by }, duration, options);
-  run = solver.follow(chosen, duration, options);
+  run = solver.follow(chosen, duration);
   eulerRun = undefined;
   twin = undefined;
   if (run.status === "ok") {
-    settled = solver.settle(chosen, data.cycles, options);
-    // A part that starts on the plate must not start above it, where it would have one more impact.
-    known = countKnown(run.impacts(), higher(height > plateHeight() ? BLUR : -BLUR).impacts());
-    if (byId("second").checked) twin = higher(Number(byId("separation").value));
+    resolved = solver.resolvedUntil(run, solver.follow(chosen, duration, 2), data.line);
+    if (byId("second").checked) {
+      const height = chosen.z0 === "conveyor" ? plateHeight() : chosen.z0;
+      twin = solver.follow({ ...chosen, z0: height + Number(byId("separation").value) }, duration);
+    }
     if (byId("euler").checked) later("euler", 150, computeEuler);
   }
   stated = statedState();
@@ -54,11 +52,9 @@ function compute() {
   showMap();
   let failure = "";
   if (run.status !== "ok") {
-    failure = `The solver gave up after ${digits(run.end, 4)} s of ${duration} s: ${run.status}. `;
-    failure += "The page draws nothing, because the trajectory after that time is unknown.";
+    failure = `The page draws nothing: ${run.status}. The library of the project computes this trajectory.`;
   } else if (twin && twin.status !== "ok") {
-    const end = digits(twin.end, 4);
-    failure = `The page does not draw the second part: the solver gave up after ${end} s, ${twin.status}.`;
+    failure = `The page does not draw the second part: ${twin.status}.`;
     twin = undefined;
   }
   byId("failure").textContent = failure;
@@ -74,42 +70,32 @@ function compute() {
   drawAll();
 }
 
-/* Number of impacts whose times the initial condition determines: in chaos, rounding determines the later ones. */
-function countKnown(impacts, blurred) {
-  const apart = impacts.findIndex(({ time }, k) => !blurred[k] || Math.abs(time - blurred[k].time) > SHARP);
-  return apart < 0 ? impacts.length : apart;
-}
-
-/* Whether the initial condition determines all impacts: where it does not, values belong to one trajectory of many. */
-const isSharp = () => known === run.impacts().length;
+/* Whether the whole run is resolved. In chaos, any error grows until the step decides where the part is. */
+const isSharp = () => resolved === duration;
 
 /* Explicit Euler takes millions of steps, so it waits until the sliders rest. */
 function computeEuler() {
   if (!byId("euler").checked || run.status !== "ok") return;
-  const { step } = data.solver;
-  eulerRun = solver.euler(chosen, duration, step, Math.max(1, Math.round(run.c.period / step / 2000)));
+  eulerRun = solver.euler(chosen, duration, data.solver.step);
   showResults();
   drawAll();
 }
 
-/* The state to show: the state of the periodic motion to which the part converges; otherwise the map's, which distinguishes
-   chaos from slow convergence by the Lyapunov exponent. */
+/* The state to show: that of a map for these parameters, where the part moves accordingly; otherwise what the part
+   does in the last quarter of the run. */
 function statedState() {
   if (run.status !== "ok") return { name: undefined, text: "Not known", note: "" };
-  if (settled.state) {
-    const does = settled.state === "first" ? "moves with the plate" : "jumps";
-    const period = settled.period === 1 ? "every cycle" : `every ${settled.period} cycles`;
-    const note = `The part ${does}. Its motion repeats ${period} from cycle ${settled.after} on.`;
-    return { name: settled.state, text: STATE_NAMES[settled.state], note };
-  }
-  if (settled.status !== "ok") {
-    const note = `The solver gave up within ${data.cycles} cycles: ${settled.status}.`;
-    return { name: undefined, text: "Not known", note };
-  }
+  const longest = Math.max(0, ...run.lastImpacts(data.last).map(({ flight }) => flight)) / run.c.period;
+  const jumps = longest >= LONG_FLIGHT;
+  const seen = `In the last quarter, the longest flight lasts ${digits(longest, 2)} cycles.`;
   const onMap = maps.filter((one) => !differences(one).length).map(stateOnMap).find(Boolean);
-  const text = `Not converged within ${data.cycles} cycles`;
-  if (onMap !== "chaos") return { name: "undecided", text, note: "Slow convergence alone is not chaos." };
-  return { name: "chaos", text, note: "The state map shows chaos here: the Lyapunov exponent is positive." };
+  if (onMap && (onMap === "chaos" || (onMap === "second") === jumps)) {
+    return { name: onMap, text: STATE_NAMES[onMap], note: `This state comes from a map. ${seen}` };
+  }
+  const why = onMap
+    ? `The nearest point of the map has another state (${STATE_NAMES[onMap].toLowerCase()}).`
+    : "No map of this page contains this choice.";
+  return { name: undefined, text: jumps ? "The part jumps" : "The part moves with the plate", note: `${seen} ${why}` };
 }
 
 // ------------------------------------------------------------------------------------------------------------- results
@@ -118,19 +104,19 @@ function showResults() {
   const ok = run.status === "ok";
   const note = element("small", { textContent: stated.note });
   byId("state").replaceChildren(swatch(colours[stated.name]), stated.text, note);
-  const doubt = !ok || isSharp() ? "" : "of this trajectory only: rounding decides";
+  const doubt = !ok || isSharp() ? "" : "unresolved: depends on the step";
   const show = (id, number, unit, count) => {
     const text = ok ? `${significant(number(), count)} ${unit}` : "not known";
     byId(id).replaceChildren(text, element("small", { textContent: doubt }));
     return text;
   };
-  const mean = show("velocity", () => run.meanVelocity(data.last), "m/s", 7);
-  show("impact-speed", () => run.impactSpeed(data.last), "m/s", 5);
-  show("peak-force", () => run.peakForce(data.last), "N", 5);
+  const mean = show("velocity", () => run.meanVelocity(data.last), "m/s", DIGITS);
+  show("impact-speed", () => run.impactSpeed(data.last), "m/s", DIGITS);
+  show("peak-force", () => run.peakForce(data.last), "N", DIGITS);
   byId("throw-number").textContent = signed(digits(run.c.aZ / run.c.gravity, 4));
   byId("twin-result").hidden = !twin;
-  if (twin) show("twin-velocity", () => twin.meanVelocity(data.last), "m/s", 7);
-  byId("count").textContent = ok ? `${run.impacts().length} in ${duration} s` : "not known";
+  if (twin) show("twin-velocity", () => twin.meanVelocity(data.last), "m/s", DIGITS);
+  byId("count").textContent = ok ? `${run.impacts.length} in ${duration} s` : "not known";
   byId("euler-result").hidden = !byId("euler").checked;
   byId("euler-velocity").textContent = eulerText();
   byId("summary").textContent = `${stated.text}, ${mean}`;
@@ -154,25 +140,22 @@ function eulerText() {
   const [found, exact] = [eulerRun, run].map((one) => one.meanVelocity(data.last));
   const comparable = isSharp() && Math.abs(exact) > 1e-9;
   const deviation = comparable ? ` (${signed(digits((100 * (found - exact)) / exact, 2))} %)` : "";
-  return `${significant(found, 7)} m/s${deviation}`;
+  return `${significant(found, DIGITS)} m/s${deviation}`;
 }
 
 function showImpacts() {
-  const impacts = run.impacts();
+  const { impacts } = run;
   const rows = impacts.slice(0, ROWS).map(({ time, speed, flight }, k) => {
     const phase = (run.c.omega * time + run.c.psi0) % (2 * Math.PI);
-    const [approach, before] = [speed, 1e3 * flight].map((one) => one.toPrecision(6));
-    const texts = [String(k + 1), time.toFixed(12), phase.toFixed(6), approach, before];
+    const [approach, before] = [speed, 1e3 * flight].map((one) => one.toPrecision(DIGITS));
+    const texts = [String(k + 1), time.toFixed(6), phase.toFixed(3), approach, before];
     const cells = texts.map((textContent) => element("td", { textContent: signed(textContent) }));
-    return element("tr", { className: k < known ? "" : "blurred" }, ...cells);
+    return element("tr", { className: time <= resolved ? "" : "blurred" }, ...cells);
   });
   byId("impacts").replaceChildren(...rows);
   const notes = [];
   if (impacts.length > ROWS) notes.push(`The table lists the first ${ROWS} of ${impacts.length} impacts.`);
-  if (known < impacts.length) {
-    const blur = `${power10(Math.log10(BLUR))} m in the initial height`;
-    notes.push(`From No. ${known + 1} on, rounding decides: ${blur} move these times by more than ${1e6 * SHARP} µs.`);
-  }
+  if (!isSharp()) notes.push(`From ${digits(resolved, 3)} s on, the motion is unresolved: another step gives other impacts.`);
   byId("impacts-note").textContent = notes.join(" ");
 }
 
@@ -285,7 +268,7 @@ function connect() {
   on("restart", "click", () => goTo(0));
   on("back", "click", () => goTo(time - STEP * run.c.period));
   on("forth", "click", () => goTo(time + STEP * run.c.period));
-  on("next", "click", () => goTo(run.impacts().find((impact) => impact.time > time + 1e-12)?.time ?? duration));
+  on("next", "click", () => goTo(run.impacts.find((impact) => impact.time > time + 1e-12)?.time ?? duration));
   on("time", "input", ({ target }) => goTo(target.valueAsNumber));
   on("cycles", "change", drawAll);
   for (const id of ["second", "separation", "euler"]) on(id, "change", request);
@@ -308,6 +291,7 @@ fill(byId("slow"), SLOWNESS, (one) => `${one} ×`, 100);
 fill(byId("separation"), SEPARATIONS, (one) => `${power10(Math.round(Math.log10(one)))} m`, data.separation);
 fill(byId("cycles"), CYCLES_IN_VIEW, (one) => (one === Infinity ? "all" : one), 4);
 byId("duration").value = duration;
+byId("cycle-steps").textContent = Math.round(1 / solver.CYCLE_STEP);
 byId("euler-step").textContent = `${plain(1e6 * data.solver.step)} µs`;
 connect();
 takeAddress();

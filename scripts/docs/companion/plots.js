@@ -117,19 +117,11 @@ function showLegend(look) {
   byId("legend").replaceChildren(...entries);
 }
 
-/* Number of samples of a curve over a time span. */
-const samples = (span, perCycle) => Math.min(20000, Math.max(900, Math.ceil((perCycle * span) / run.c.period)));
+/* Number of samples of a curve over a time span: all states that the run keeps, if they are few enough to draw. */
+const samples = (span) => Math.min(20000, Math.max(900, Math.ceil(span / run.interval)));
 
-/* `count` evenly spaced times, and the middle and both ends of every piece of motion between them: forces jump there,
-   and a curve must not miss a short impact. */
-function moments(from, to, count) {
-  const times = Array.from({ length: count + 1 }, (_, k) => from + ((to - from) * k) / count);
-  run.pieces.forEach(({ begin }, k) => {
-    const end = k + 1 < run.pieces.length ? run.pieces[k + 1].begin : duration;
-    for (const one of [begin, 0.5 * (begin + end), end - 1e-14]) if (one > from && one < to) times.push(one);
-  });
-  return times.sort((a, b) => a - b);
-}
+/* `count` evenly spaced times. */
+const moments = (from, to, count) => Array.from({ length: count + 1 }, (_, k) => from + ((to - from) * k) / count);
 
 /* A range for an axis; a quantity that varies by rounding only appears constant in it. */
 function rangeOf(values) {
@@ -140,7 +132,7 @@ function rangeOf(values) {
 
 /* Ranges of all plots over the whole run, so that the axes do not change during the animation. */
 function measureExtent() {
-  const times = moments(0, duration, samples(duration, 100));
+  const times = moments(0, duration, samples(duration));
   const parts = times.map((one) => run.at(one));
   const plates = times.map((one) => solver.plate(run.c, one));
   const from = times.findIndex((one) => one >= (1 - data.last) * duration);
@@ -176,7 +168,7 @@ function drawSignal(id, name, label, scale, times, curves, view) {
 function drawSignals() {
   const view = timeWindow();
   drawnWindow = String(view);
-  const times = moments(...view, samples(view[1] - view[0], 200));
+  const times = moments(...view, samples(view[1] - view[0]));
   const look = looks();
   const of = (one) => times.map((moment) => one.at(moment));
   const plates = times.map((moment) => solver.plate(run.c, moment));
@@ -204,8 +196,7 @@ function drawPhase() {
 /* Distance of both parts in the plane of z and ż/ω, a length. */
 function drawDistance() {
   const canvas = byId("plot-distance");
-  const count = samples(duration, 24);
-  const times = Array.from({ length: count + 1 }, (_, k) => (k * duration) / count);
+  const times = moments(0, duration, samples(duration));
   // A distance of zero has no place on the logarithmic axis.
   const apart = times.map((one) => {
     if (!twin) return NaN;

@@ -56,7 +56,7 @@ function drawScene() {
   }
 
   // The path of one point of the plate, a line or an ellipse, within the view; and its present position.
-  const beside = centre + Math.max(0, Math.min(0.25 * width, 0.46 * width - run.c.speedX / run.c.omega));
+  const beside = centre + Math.max(0, Math.min(0.25 * width, 0.46 * width - run.c.aX / run.c.omega ** 2));
   const cycle = Array.from({ length: 73 }, (_, k) => solver.plate(run.c, (k * period) / 72));
   context.strokeStyle = context.fillStyle = style("ink");
   context.lineWidth = 1.5;
@@ -89,8 +89,8 @@ function drawScene() {
 
 /* The scene in words. */
 function describeScene() {
-  const { aX, aZ, sineShift } = run.c;
-  const drive = aX && aZ && Math.abs(sineShift) > 1e-6 ? "along an ellipse" : "along a straight line";
+  const { aX, aZ, shift } = run.c;
+  const drive = aX && aZ && Math.abs(Math.sin(shift)) > 1e-6 ? "along an ellipse" : "along a straight line";
   const { inclination } = chosen;
   const track = inclination ? `a track inclined by ${shownAs("inclination", inclination)}` : "a level track";
   byId("scene").setAttribute("aria-label", `The part on ${track}; the plate moves ${drive}.`);

@@ -10,8 +10,7 @@ let duration = data.solver.duration;
 let run; // trajectory of the part
 let twin; // trajectory of the second part
 let eulerRun;
-let settled; // what the part converges to
-let known; // number of impacts whose times the initial condition determines, see `countKnown`
+let resolved; // time until which the trajectory does not depend on the step, see `resolvedUntil`
 let stated; // the state that is shown: name and text
 let time = 0;
 
