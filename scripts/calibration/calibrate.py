@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from calibration.effort import sizes_of
 from calibration.inference import (
     DETERMINED,
     DISAGREEING,
@@ -97,4 +98,5 @@ def calibrate(
 def make(measurements: str, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, dict]:
     """The tables from the text of the file of measurements."""
     measured = parse(measurements, settings["measurements"], settings, RANGES)
+    settings = settings | sizes_of(settings["effort"])
     return calibrate(measured, settings, threads=threads, progress=progress)

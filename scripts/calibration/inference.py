@@ -26,6 +26,8 @@ SEARCHES, MOST_SEARCHES, REPEATABLE = 4, 8, 0.25
 HOPELESS = 30.0
 # The search first takes measurements for less accurate than they are, so that it finds its way from far away.
 INFLATIONS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0)
+CONFIDENCE = 0.95  # of the intervals
+RESOLVED = 1.0 / (1.0 - CONFIDENCE)  # effective number of samples of which one lies outside an interval
 WIDE = 0.8  # of the searched range: a wider interval determines nothing
 
 
@@ -46,11 +48,6 @@ def data_of(measured: list[Measurement], model: dict) -> Data:
     velocity = np.array([one.velocity for one in measured])
     sd = np.array([math.nan if one.sd is None else one.sd for one in measured])
     return Data(measured, conditions, of, velocity, sd, conditions.plate[of])
-
-
-def samples_of_interval(confidence: float) -> float:
-    """The effective number of samples of which one lies outside an interval with this confidence."""
-    return 1.0 / (1.0 - confidence)
 
 
 def log_factors(found: np.ndarray, data: Data, settings: dict, inflations: tuple[float, ...]) -> np.ndarray:
@@ -134,7 +131,7 @@ def summarize(found: Sample, weights: np.ndarray, settings: dict) -> np.ndarray:
         middle, own = best[name][0], values[name]
         if name in LOGARITHMIC:
             middle, own = log(middle), log(own)
-        rows.append([middle, *interval(own, weights, settings["confidence"])])
+        rows.append([middle, *interval(own, weights, CONFIDENCE)])
     return np.array(rows)
 
 

@@ -28,6 +28,10 @@ from conveyor.linear_algebra import dot, product
 from pipeline.importance_sampling import LEAST, Sample
 
 SEARCHES_OF_ALTERNATIVE = (2, 2)  # an evidence needs no interval, and hardly differs between searches
+DECISIVE = (
+    20.0  # Bayes factor from which the model without an alternative is rejected ("strong", Kass and Raftery 1995)
+)
+SIGNIFICANCE = 0.01  # p-value below which the model does not explain the measurements
 UNLIKELY = 0.01  # share of replicates below which a single measurement does not fit
 
 
@@ -112,7 +116,7 @@ def check_fit(found: Sample, data: Data, settings: dict, *, threads: int = 1, pr
         "p_row": p_row,
         "fits": p_row >= UNLIKELY,
         "p_value": np.full(rows, p_value),
-        "explained": np.full(rows, p_value >= settings["significance"]),
+        "explained": np.full(rows, p_value >= SIGNIFICANCE),
     }
 
 
@@ -144,7 +148,7 @@ def compare_alternatives(
                 "unit": UNITS[name],
                 "value": float(values_at(centre(other.points, other.weights)[None], own)[name][0]),
                 "log_bayes_factor": gain,
-                "preferred": gain > math.log(settings["decisive"]),
+                "preferred": gain > math.log(DECISIVE),
                 "effective": other.size,
             }
         )

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from calibration.inference import NOT_DETERMINED, TOO_FEW, samples_of_interval
+from calibration.inference import NOT_DETERMINED, RESOLVED, TOO_FEW
 from pipeline.rule_log import JobError
 
 DIGITS = 6
@@ -27,7 +27,7 @@ def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
     head = (
         f"# Calibrated from {settings['measurements']}. Name this file behind the overlay that names the measurements."
     )
-    if parameters.effective.iloc[0] < samples_of_interval(settings["confidence"]):
+    if parameters.effective.iloc[0] < RESOLVED:
         head += "\n# A quick trial with too few samples for intervals: do not use these values."
     parts = (
         "parts: {calibrated: true}   # the transit of parts draws these parameters from the samples of the calibration"

@@ -5,23 +5,27 @@ import math
 import numpy as np
 import pandas as pd
 
+from calibration.effort import sizes_of
 from calibration.inference import (
+    CONFIDENCE,
     DETERMINED,
     DISAGREEING,
     NOT_DETERMINED,
     OPEN,
     REPEATABLE,
+    RESOLVED,
     TOO_FEW,
-    samples_of_interval,
 )
 from calibration.measurements import DEFAULTS, first_comments
-from calibration.model_check import UNLIKELY
+from calibration.model_check import DECISIVE, SIGNIFICANCE, UNLIKELY
+from calibration.predicted import OUTLIERS
 from pipeline.templates import format_significant, render
 
 WORST = 8  # rows that are named
 SHOWN = 9  # amplitudes in the table of predicted velocities
 # Names of the parameters in sentences.
 NAMES = {"friction": "friction coefficient", "damping": "contact damping", "stiffness": "contact stiffness"}
+CONSTANTS = {"confidence": CONFIDENCE, "decisive": DECISIVE, "outliers": OUTLIERS, "significance": SIGNIFICANCE}
 WORTH = 0.02  # expected narrowing from which one more measurement is recommended
 
 
@@ -58,7 +62,7 @@ def make(
     return render(
         template,
         {
-            "settings": parameters.attrs,
+            "settings": parameters.attrs | sizes_of(parameters.attrs["effort"]) | CONSTANTS,
             "prefix": prefix,
             "comments": first_comments(measurements),
             "parameters": rows,
@@ -71,9 +75,9 @@ def make(
             "searches": int(parameters.searches.iloc[0]),
             "disagreeing": bool((parameters.status == DISAGREEING).any()),
             "repeatable": REPEATABLE,
-            "resolved": samples_of_interval(parameters.attrs["confidence"]),
+            "resolved": RESOLVED,
             "explained": bool(fit.explained.all()),
-            "fits": bool(fit.p_value.iloc[0] >= parameters.attrs["significance"]),
+            "fits": bool(fit.p_value.iloc[0] >= SIGNIFICANCE),
             "alternatives": others,
             "preferred": [row for row in others if row["preferred"]],
             "p_value": float(fit.p_value.iloc[0]),

@@ -24,6 +24,8 @@ NEIGHBOUR, WIDENED, OF_ALL = 4, 1.5, 0.4
 # Least standard deviation of a measurement, as a share of the plate's largest velocity along the track: what the
 # tolerance, and motions that have not settled, add.
 FLOOR = 5e-4
+# Share of measurements that may have any velocity; otherwise one mistake in the file would decide everything.
+OUTLIERS = 0.02
 FIRST = 8  # parts that are followed first
 
 
@@ -192,5 +194,4 @@ def log_densities(
     density = exp(-0.5 * z**2) / (math.sqrt(2.0 * math.pi) * scale)
     mean = np.nan_to_num(density).sum(axis=-1) / velocities.shape[-1]
     outlier = 0.5 / np.maximum(plate, np.abs(measured))  # even over twice the plate's velocity
-    share = settings["outliers"]
-    return log((1.0 - share) * mean + share * outlier)
+    return log((1.0 - OUTLIERS) * mean + OUTLIERS * outlier)

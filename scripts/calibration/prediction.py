@@ -15,6 +15,7 @@ import math
 import numpy as np
 import pandas as pd
 
+from calibration.effort import sizes_of
 from calibration.measurements import CALIBRATED, DEFAULTS
 from calibration.predicted import conditions_at, deviations, log_densities, velocities
 from calibration.search_space import LOGARITHMIC
@@ -42,6 +43,7 @@ TABLES = {
 }
 ENDS = (0.05, 0.5, 0.95)
 POSSIBLE = 256  # possible results of a measurement
+BEYOND = 0.2  # relative distance beyond the measured amplitudes within which the next measurement is sought
 
 
 def expected_narrowing(
@@ -80,13 +82,26 @@ def make(
     samples: pd.DataFrame, fit: pd.DataFrame, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> dict[str, dict]:
     """The tables of predicted velocities and of possible next measurements."""
+    return predict(samples, fit, settings | sizes_of(settings["effort"]), threads=threads, progress=progress)
+
+
+def predict(
+    samples: pd.DataFrame,
+    fit: pd.DataFrame,
+    settings: dict,
+    *,
+    beyond: float = BEYOND,
+    threads: int = 1,
+    progress: str | None = None,
+) -> dict[str, dict]:
+    """Both tables, with amplitudes up to a relative distance `beyond` the measured ones."""
     low, high = fit.acceleration.min(), fit.acceleration.max()
     between = np.unique(np.linspace(low, high, settings["amplitudes"]))
     # Amplitudes that are nearly equal would otherwise ask for any number of further ones.
-    step = max((high - low) / (settings["amplitudes"] - 1), settings["beyond"] * high / settings["amplitudes"])
-    count = math.floor(settings["beyond"] * high / step)
-    beyond = np.concatenate([low - step * np.arange(1, count + 1), high + step * np.arange(1, count + 1)])
-    amplitudes = np.concatenate([between, beyond[beyond > (1.0 - settings["beyond"]) * low]])
+    step = max((high - low) / (settings["amplitudes"] - 1), beyond * high / settings["amplitudes"])
+    count = math.floor(beyond * high / step)
+    outside = np.concatenate([low - step * np.arange(1, count + 1), high + step * np.arange(1, count + 1)])
+    amplitudes = np.concatenate([between, outside[outside > (1.0 - beyond) * low]])
     conditions = conditions_at(
         amplitudes,
         [{}] * len(amplitudes),

@@ -16,6 +16,7 @@ import pandas as pd
 
 from calibration import prediction
 from calibration.calibrate import calibrate
+from calibration.effort import HELD_OUT, sizes_of
 from calibration.inference import Data, data_of, search
 from calibration.measurements import parse
 from calibration.predicted import log_densities, velocities
@@ -25,6 +26,23 @@ from pipeline import grid
 
 PARAMETERS = ("friction", "damping", "stiffness")
 RIGHT = ("rich", "poor")  # kinds of data sets whose model is right
+# Ranges of the random conveyors; all but angle and friction on a logarithmic scale.
+CONVEYORS = {
+    "frequency": (15.0, 150.0),  # Hz
+    "angle": (0.17, 0.61),  # rad: 10° to 35°
+    "mass": (1e-4, 0.2),  # kg
+    "friction": (0.1, 0.6),
+    "damping": (0.06, 0.8),  # the group L, coefficient of restitution from 0.93 to 0.35 in an impact at 10 g/ω
+    "stiffness": (4.0, 1800.0),  # the group K, natural frequency of a part at rest from 2 to 15 times that of the drive
+}
+THROW_NUMBER = (0.8, 3.5)  # a_z/g of the lowest and of the highest amplitude
+AMPLITUDES, PARTS = 10, 3  # of a rich set: amplitudes, and parts at each of them
+POOR = 5  # velocities of a poor set, at random amplitudes
+DURATION = 0.5  # s over which the velocity of a part is measured, and time on the track before
+BAND = {"amplitudes": 49, "predicted": 48}  # in place of the sizes of a calibration: a study needs no next measurement
+# What the calibration is not told: rad, rad, and a Hooke contact instead of a Hertz contact.
+WRONG = {"phase_shift": 0.8, "inclination": 0.06, "exponent": 1.0}
+SEED = 48
 NARROW = 0.2  # half of an interval, relative to the best value
 # Samples of the posterior that are compared with the true parameters, and parts for their likelihoods.
 COMPARED, MANY = 16, 2048
@@ -36,14 +54,13 @@ def log_uniform(low: float, high: float, random: np.random.Generator) -> float:
 
 def random_conveyor(settings: dict, random: np.random.Generator) -> tuple[dict, dict]:
     """A model, and the box of initial conditions in the same multiples of g/ω² and g/ω as in the config."""
-    ranges = settings["conveyors"]
     model = settings["model"] | {
-        "frequency": log_uniform(*ranges["frequency"], random),
-        "angle": random.uniform(*ranges["angle"]),
-        "mass": log_uniform(*ranges["mass"], random),
-        "friction": random.uniform(*ranges["friction"]),
+        "frequency": log_uniform(*CONVEYORS["frequency"], random),
+        "angle": random.uniform(*CONVEYORS["angle"]),
+        "mass": log_uniform(*CONVEYORS["mass"], random),
+        "friction": random.uniform(*CONVEYORS["friction"]),
     }
-    group, loss = log_uniform(*ranges["stiffness"], random), log_uniform(*ranges["damping"], random)
+    group, loss = log_uniform(*CONVEYORS["stiffness"], random), log_uniform(*CONVEYORS["damping"], random)
     stiffness, damping = contact_of_groups(group, loss, grid.row_of(model))
     ratio = settings["model"]["frequency"] / model["frequency"]
     box = {
@@ -54,17 +71,16 @@ def random_conveyor(settings: dict, random: np.random.Generator) -> tuple[dict, 
     return model | {"stiffness": float(stiffness), "damping": float(damping)}, box
 
 
-def measured_conveyor(kind: str, stated: dict, settings: dict) -> tuple[dict, float]:
+def measured_conveyor(kind: str, stated: dict) -> tuple[dict, float]:
     """The measured conveyor of a data set, and the factor of its stated amplitudes, for a conveyor as it is stated."""
-    wrong = settings["wrong"]
     if kind == "effective_value":
         return stated, math.sqrt(0.5)
     if kind == "exponent":
         # A contact with another exponent, with the same force at the penetration of the static load times ten.
         static = 10.0 * (stated["mass"] * stated["gravity"] / stated["stiffness"]) ** (1.0 / stated["exponent"])
-        stiffness = stated["stiffness"] * static ** (stated["exponent"] - wrong["exponent"])
-        return stated | {"exponent": wrong["exponent"], "stiffness": stiffness}, 1.0
-    return (stated | {kind: wrong[kind]} if kind in wrong else stated), 1.0
+        stiffness = stated["stiffness"] * static ** (stated["exponent"] - WRONG["exponent"])
+        return stated | {"exponent": WRONG["exponent"], "stiffness": stiffness}, 1.0
+    return (stated | {kind: WRONG[kind]} if kind in WRONG else stated), 1.0
 
 
 def gain_of_distant(samples: pd.DataFrame, best: dict, true: dict, data: Data, settings: dict, threads: int) -> float:
@@ -86,31 +102,31 @@ def gain_of_distant(samples: pd.DataFrame, best: dict, true: dict, data: Data, s
 
 def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: str | None = None) -> str:
     """The row of one data set, as JSON."""
-    random = np.random.default_rng([settings["seed"], number])
+    random = np.random.default_rng([SEED, number])
     stated, box = random_conveyor(settings, random)
-    real, factor = measured_conveyor(kind, stated, settings)
+    real, factor = measured_conveyor(kind, stated)
     scale = stated["gravity"] / math.sin(stated["angle"])
-    least, most = (scale * end for end in settings["throw_number"])
+    least, most = (scale * end for end in THROW_NUMBER)
     if kind == "poor":
-        amplitudes = np.sort(random.uniform(least, most, settings["poor"]))
+        amplitudes = np.sort(random.uniform(least, most, POOR))
     else:
-        amplitudes = np.repeat(np.linspace(least, most, settings["amplitudes"]), settings["parts_of_study"])
+        amplitudes = np.repeat(np.linspace(least, most, AMPLITUDES), PARTS)
     amplitudes = amplitudes.round(3)
-    lasts = settings["duration"]
-    rows = measure(real, amplitudes, box, settings["calibration"]["noise"], random, duration=lasts)
+    sizes = sizes_of(settings["calibration"]["effort"])
+    rows = measure(real, amplitudes, box, settings["calibration"]["noise"], random, duration=DURATION)
 
     def as_stated(conveyor: dict, scale: float) -> tuple[list, dict]:
         """The measurements and the settings if a conveyor, and amplitudes times `scale`, are stated."""
         model = {name: value for name, value in conveyor.items() if name not in PARAMETERS}
-        own = settings["calibration"] | settings["band"] | box | {"model": model, "static_friction": 0.0}
+        own = sizes | settings["calibration"] | box | {"model": model, "static_friction": 0.0}
         pairs = [(scale * acceleration, velocity) for acceleration, velocity in rows]
-        return parse(csv_text(pairs, "synthetic", duration=lasts, before=lasts), "synthetic", own, RANGES), own
+        return parse(csv_text(pairs, "synthetic", duration=DURATION, before=DURATION), "synthetic", own, RANGES), own
 
     measured, own = as_stated(stated, factor)
     found = calibrate(measured, own, threads=threads, progress=progress)
     samples, fit = (pd.DataFrame(found[name]) for name in ("samples", "fit"))
-    band = prediction.make(samples, fit, own, threads=threads, progress=progress)["prediction"]
-    held = random.uniform(amplitudes[0], amplitudes[-1], settings["held_out"])
+    band = prediction.predict(samples, fit, own | BAND, beyond=0.0, threads=threads, progress=progress)["prediction"]
+    held = random.uniform(amplitudes[0], amplitudes[-1], HELD_OUT)
     velocity = np.array([true_velocity(real, one, box, random) for one in held])
     low, high = (np.interp(factor * held, band["acceleration"], band[name]) for name in ("low", "high"))
     row = {name: stated[name] for name in ("frequency", "angle", "mass")}

@@ -3,6 +3,7 @@
 import json
 import math
 
+from calibration.model_check import DECISIVE, SIGNIFICANCE
 from calibration.study import PARAMETERS
 from pipeline import fields
 
@@ -45,11 +46,10 @@ TABLES = {
 }
 
 
-def make(rows: list[str], settings: dict) -> dict[str, list]:
+def make(rows: list[str]) -> dict[str, list]:
     """The columns of the table from the rows of all data sets, as JSON."""
     found = [json.loads(row) for row in rows]
-    least, decisive = (settings["calibration"][name] for name in ("significance", "decisive"))
     for row in found:
         row |= {name: row.get(name) for name in ("gain_of_distant", "gain_of_truth")}
-        row["explained"] = row["p_value"] >= least and row["log_bayes_factor"] <= math.log(decisive)
+        row["explained"] = row["p_value"] >= SIGNIFICANCE and row["log_bayes_factor"] <= math.log(DECISIVE)
     return fields.columns(found, TABLES["calibration_study"])

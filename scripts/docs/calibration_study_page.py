@@ -6,6 +6,9 @@ import numpy as np
 import pandas as pd
 from scipy.stats import chi2
 
+from calibration import study
+from calibration.inference import CONFIDENCE
+from calibration.model_check import DECISIVE, SIGNIFICANCE
 from calibration.study import COMPARED, MANY, NARROW, PARAMETERS, RIGHT
 from pipeline.templates import render
 
@@ -41,16 +44,20 @@ def summarize(kind: str, sets: pd.DataFrame) -> dict:
 
 def make(template: str, calibration_study: pd.DataFrame) -> str:
     """The page from its template and the table of the study."""
-    settings = calibration_study.attrs
     by_kind = dict(list(calibration_study.groupby("kind", sort=False)))
     return render(
         template,
         {
-            **{name: settings[name] for name in ("conveyors", "throw_number", "amplitudes", "poor")},
-            "noise": settings["calibration"]["noise"],
-            **{name: settings["calibration"][name] for name in ("confidence", "significance", "decisive")},
-            "parts": settings["parts_of_study"],
-            "differences": settings["wrong"],
+            "conveyors": study.CONVEYORS,
+            "throw_number": study.THROW_NUMBER,
+            "amplitudes": study.AMPLITUDES,
+            "poor": study.POOR,
+            "noise": calibration_study.attrs["calibration"]["noise"],
+            "confidence": CONFIDENCE,
+            "significance": SIGNIFICANCE,
+            "decisive": DECISIVE,
+            "parts": study.PARTS,
+            "differences": study.WRONG,
             "count": len(calibration_study),
             "narrow": NARROW,
             "many": MANY,

@@ -30,7 +30,6 @@ CONTACT = {"friction": 0.25, "damping": 0.3, "stiffness": 3e5}
 SETTINGS = {
     "parameters": ["friction", "damping", "stiffness"],
     "alternatives": {},
-    "decisive": 20.0,
     "ranges": {"friction": [0.05, 1.0], "damping": [0.03, 2.5], "stiffness": [2.0, 2000.0]},
     "height": [0.0, 5e-4],
     "vz0": [-0.2, 0.2],
@@ -39,21 +38,17 @@ SETTINGS = {
     "static_friction": 0.0,
     "measurements": "mine.csv",
     "noise": 0.02,
-    "outliers": 0.02,
     "parts": 8,
     "first": 100,
     "points": 50,
     "rounds": 12,
     "enough": 60.0,
     "effective": 20.0,
-    "confidence": 0.95,
     "samples": 40,
     "checked": 6,
     "checked_parts": 16,
     "replicates": 1000,
-    "significance": 0.01,
     "amplitudes": 4,
-    "beyond": 0.2,
     "predicted": 20,
     "predicted_parts": 8,
     "seed": 1,
@@ -165,7 +160,7 @@ def test_results_do_not_depend_on_the_threads(found):
 
 def test_the_prediction_covers_the_measured_amplitudes_and_the_next_measurement_lies_near(found):
     samples, fit = (pd.DataFrame(found[name]) for name in ("samples", "fit"))
-    tables = prediction.make(samples, fit, SETTINGS, threads=2)
+    tables = prediction.predict(samples, fit, SETTINGS, threads=2)
     band, candidates = (pd.DataFrame(tables[name]) for name in ("prediction", "next"))
     assert (band.acceleration.iloc[0], band.acceleration.iloc[-1]) == (20.0, 60.0)
     assert ((band.low <= band["median"]) & (band["median"] <= band.high)).all()
@@ -184,7 +179,7 @@ def test_nearly_equal_amplitudes_ask_for_few_predictions(highest, monkeypatch):
 
     monkeypatch.setattr(prediction, "velocities", nothing)
     samples = pd.DataFrame({name: value * np.linspace(0.9, 1.1, 40) for name, value in CONTACT.items()})
-    prediction.make(samples, pd.DataFrame({"acceleration": [44.0, highest]}), SETTINGS)
+    prediction.predict(samples, pd.DataFrame({"acceleration": [44.0, highest]}), SETTINGS)
     assert 3 <= followed[0] <= 3 * SETTINGS["amplitudes"]
 
 
@@ -199,7 +194,7 @@ def test_the_band_between_two_rows_contains_a_motion_that_begins_there(monkeypat
     monkeypatch.setattr(prediction, "velocities", step)
     samples = pd.DataFrame({name: value * np.linspace(0.9, 1.1, 40) for name, value in CONTACT.items()})
     fit = pd.DataFrame({"acceleration": [20.0, 60.0]})
-    band = pd.DataFrame(prediction.make(samples, fit, SETTINGS | {"amplitudes": 9})["prediction"])
+    band = pd.DataFrame(prediction.predict(samples, fit, SETTINGS | {"amplitudes": 9})["prediction"])
     for velocity in (0.02, 0.1):  # at 40.5 and at 41.5 m/s²
         low, high = (np.interp([40.5, 41.5], band.acceleration, band[name]) for name in ("low", "high"))
         assert (low < velocity).all() and (velocity < high).all()

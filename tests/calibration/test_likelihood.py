@@ -7,11 +7,11 @@ import pytest
 from scipy.stats import norm
 
 from calibration.measurements import Measurement
-from calibration.predicted import conditions_of, log_densities, velocities, widths
+from calibration.predicted import OUTLIERS, conditions_of, log_densities, velocities, widths
 from calibration.search_space import bounds_of, values_at
 from conveyor import Conveyor, Start, simulate
 
-SETTINGS = {"noise": 0.02, "outliers": 0.01}
+SETTINGS = {"noise": 0.02}
 BOX = {"height": [0.0, 5e-4], "vz0": [-0.2, 0.2], "psi0": [0.0, 2.0 * math.pi], "static_friction": 0.0}
 MODEL = {"frequency": 50.0, "angle": 0.2094, "mass": 0.7e-3, "gravity": 9.81, "inclination": 0.0, "phase_shift": 0.0}
 CONTACT = {"friction": 0.15, "damping": 0.3, "stiffness": 5e5}
@@ -23,9 +23,9 @@ def density(measured, parts, sd=math.nan):
 
 
 def test_parts_with_one_velocity_give_a_normal_density():
-    wanted = 0.99 * norm.pdf(0.051, 0.05, math.hypot(0.02 * 0.05, 5e-4 * 0.13)) + 0.01 * 0.5 / 0.13
+    wanted = (1.0 - OUTLIERS) * norm.pdf(0.051, 0.05, math.hypot(0.02 * 0.05, 5e-4 * 0.13)) + OUTLIERS * 0.5 / 0.13
     assert density(0.051, np.full(24, 0.05)) == pytest.approx(wanted, rel=1e-6)
-    wanted = 0.99 * norm.pdf(0.051, 0.05, math.hypot(0.003, 5e-4 * 0.13)) + 0.01 * 0.5 / 0.13
+    wanted = (1.0 - OUTLIERS) * norm.pdf(0.051, 0.05, math.hypot(0.003, 5e-4 * 0.13)) + OUTLIERS * 0.5 / 0.13
     assert density(0.051, np.full(24, 0.05), sd=0.003) == pytest.approx(wanted, rel=1e-6)
 
 
@@ -33,7 +33,7 @@ def test_nothing_lies_between_two_coexisting_velocities():
     parts = np.repeat([0.01, 0.08], [6, 18])
     one, both = density(0.08, np.full(24, 0.08)), density(0.08, parts)
     assert both == pytest.approx(0.75 * one, rel=0.02)
-    assert density(0.045, parts) == pytest.approx(0.01 * 0.5 / 0.13, rel=1e-6)
+    assert density(0.045, parts) == pytest.approx(OUTLIERS * 0.5 / 0.13, rel=1e-6)
 
 
 def test_chaos_gives_a_smooth_density():
@@ -61,7 +61,7 @@ def test_parts_that_cannot_be_followed_do_not_support_a_velocity():
     parts = np.full(24, 0.05)
     half = np.where(np.arange(24) < 12, np.nan, parts)
     assert density(0.05, half) == pytest.approx(0.5 * density(0.05, parts), rel=0.02)
-    assert density(0.05, np.full(24, np.nan)) == pytest.approx(0.01 * 0.5 / 0.13)
+    assert density(0.05, np.full(24, np.nan)) == pytest.approx(OUTLIERS * 0.5 / 0.13)
 
 
 def test_velocities_are_those_of_single_runs():

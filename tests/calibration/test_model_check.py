@@ -7,7 +7,7 @@ from calibration.inference import Data
 from calibration.measurements import Measurement
 from calibration.model_check import compare, differs
 
-SETTINGS = {"noise": 0.02, "outliers": 0.02, "replicates": 500}
+SETTINGS = {"noise": 0.02, "replicates": 500}
 CONDITIONS, REPEATS, PARTS = 6, 3, 64
 OF = np.repeat(np.arange(CONDITIONS), REPEATS)
 CENTRES = np.linspace(0.05, 0.3, CONDITIONS)

@@ -15,20 +15,9 @@ SETTINGS = {
     "measurements": "mine.csv",
     "static_friction": 0.3,
     "noise": 0.02,
-    "outliers": 0.02,
-    "significance": 0.01,
-    "decisive": 150.0,
     "parameters": ["friction", "damping", "stiffness"],
     "model": {"inclination": 0.0, "phase_shift": 0.0},
-    "confidence": 0.95,
-    "effective": 40.0,
-    "first": 256,
-    "enough": 100.0,
-    "points": 96,
-    "rounds": 24,
-    "parts": 24,
-    "replicates": 2000,
-    "checked": 24,
+    "effort": 1.0,
 }
 
 
@@ -134,7 +123,7 @@ def test_a_parameter_that_explains_much_more_rejects_the_model_and_is_named_with
 def test_a_sample_that_is_too_small_gives_no_intervals():
     text = first_screen(reliable=False)
     assert "did not find enough good parameters" in text
-    assert "points: 192" in text and "lies between" not in text
+    assert "effort: 2" in text and "lies between" not in text
 
 
 def test_a_wrong_model_may_be_a_search_that_was_too_short():
@@ -187,4 +176,4 @@ def test_the_page_gives_the_monte_carlo_errors_and_says_if_the_searches_disagree
     assert "| friction | 0.24 ± 0.002 | 0.23 ± 0.01 to 0.25 ± 0.01 |" in text and "4 independent searches" in text
     assert "disagree" not in text
     text = first_screen(status=[DETERMINED, OPEN, DISAGREEING])
-    assert "the searches disagree about the contact stiffness" in text and "calibration: {enough: 200" in text
+    assert "the searches disagree about the contact stiffness" in text and "calibration: {effort: 2}" in text

@@ -251,7 +251,7 @@ WRONG = [
         }.items()
     ),
     ({"drive": {"recommended": 9, "checked": 8}}, "drive.recommended = 9 is above drive.checked = 8; check more"),
-    ({"calibration": {"effective": 101}}, "calibration.effective = 101 should be at most calibration.enough = 100"),
+    ({"calibration": {"effort": 0}}, "calibration.effort = 0 should be at least 0.05"),
     (
         {
             "prefix": "mine",

@@ -313,11 +313,6 @@ def drive(config: dict, defaults: dict) -> Iterator[str]:
 def calibration(config: dict, defaults: dict) -> Iterator[str]:
     """Settings that contradict each other, and faults in the file of measurements."""
     own = config["calibration"]
-    if own["effective"] > own["enough"]:
-        yield (
-            f"calibration.effective = {own['effective']:g} should be at most calibration.enough = {own['enough']:g}, "
-            "at which the search ends"
-        )
     if config["parts"].get("calibrated") and "measurements" not in own:
         yield "parts.calibrated needs measurements; name the config with calibration.measurements as well"
     if (path := own.get("measurements")) is None:

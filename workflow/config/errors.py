@@ -32,6 +32,22 @@ CONSTANTS = {
     "drift.forgotten": "operating/drift",
     "drive.drawn": "operating/drive",
     "drive.settled": "operating/drive",
+    **dict.fromkeys(
+        (
+            f"calibration.{key}"
+            for key in (
+                *("parts", "first", "points", "rounds", "enough", "effective", "samples", "checked", "checked_parts"),
+                *("replicates", "amplitudes", "predicted", "predicted_parts"),
+            )
+        ),
+        "calibration/effort",
+    ),
+    "calibration.confidence": "calibration/inference",
+    "calibration.outliers": "calibration/predicted",
+    "calibration.decisive": "calibration/model_check",
+    "calibration.significance": "calibration/model_check",
+    "calibration.beyond": "calibration/prediction",
+    "calibration_study": "calibration/study",
     "precision.reference": "accuracy/reference_check",
     "stability_estimates": "accuracy/stability_estimates",
     "rigid_part": "accuracy/rigid_part",

@@ -1,12 +1,12 @@
 """The config: the sections of all stages, which scripts/STAGE/settings.py declares, and what they share."""
 
-from typing import Annotated, NotRequired
+from typing import Annotated
 
 from pydantic import ConfigDict, Field, TypeAdapter
 from typing_extensions import TypedDict
 
 from scripts.accuracy import settings as accuracy
-from scripts.calibration.measurements import CALIBRATED
+from scripts.calibration import settings as calibration
 from scripts.claims import settings as claims
 from scripts.conveyor import DESCRIPTIONS
 from scripts.dimensions import settings as dimensions
@@ -21,12 +21,9 @@ from scripts.orbits import settings as orbits
 from scripts.pipeline.settings import (
     LONGEST_NAME,
     MODEL_KEYS,
-    MODEL_TYPES,
     NAME,
-    Acceleration,
     Duration,
     HeightNumber,
-    Line,
     Method,
     Seed,
     Step,
@@ -78,92 +75,6 @@ class Sharing(TypedDict):
     megabytes: mapping(
         "memory of a job and of each row", {"program": Megabytes, "row": Megabytes, "written_row": Megabytes}
     )
-
-
-POSITIVE_GROUPS = ("friction", "damping", "stiffness", "exponent")
-RANGES_OF_CALIBRATION = {
-    name: interval(
-        number(name, "1", gt=0) if name in POSITIVE_GROUPS else MODEL_TYPES[name],
-        f"searched range of {DESCRIPTIONS[name]}",
-    )
-    for name in CALIBRATED
-}
-
-
-class Calibration(TypedDict):
-    measurements: NotRequired[
-        Annotated[Line, Field(description="CSV file of measured velocities, relative to this overlay")]
-    ]
-    parameters: many(word("parameter that is searched", *CALIBRATED), "parameters that are searched")
-    alternatives: mapping(
-        "largest difference from the stated value that is searched in addition",
-        {
-            "inclination": number(DESCRIPTIONS["inclination"], "rad", gt=0, le=0.5),
-            "phase_shift": number(DESCRIPTIONS["phase_shift"], "rad", gt=0, le=3.15),
-        },
-    )
-    decisive: number("Bayes factor from which an alternative rejects the model", gt=1)
-    ranges: mapping("range of each parameter, in dimensionless groups", RANGES_OF_CALIBRATION)
-    noise: number("relative standard deviation of a velocity without its own", ge=0, lt=1)
-    outliers: number("share of measurements that may have any velocity", gt=0, lt=1)
-    parts: whole("random initial conditions per set of parameters and amplitude", 8, 10**4)
-    first: whole("sets of parameters of the first round of the search", 32, 10**5)
-    points: whole("sets of parameters of each further round", 32, 10**5)
-    rounds: whole("further rounds at most", 1, 1000)
-    enough: number("effective number of samples at which the search ends", ge=1, le=1e6)
-    effective: number("least effective number of samples for intervals", ge=1, le=1e6)
-    confidence: number("confidence level of the intervals", gt=0, lt=1)
-    samples: whole("samples of the posterior in the table", 10, 10**5)
-    checked: whole("samples of the posterior that are tested against the measurements", 1, 10**4)
-    checked_parts: whole("random initial conditions of such a test", 8, 10**4)
-    replicates: whole("replicates of the measurements of such a test", 100, 10**6)
-    significance: number("p-value below which the model does not explain the measurements", gt=0, lt=1)
-    amplitudes: whole("amplitudes at which velocities are predicted", 2, 1000)
-    beyond: number("relative distance beyond the measured amplitudes, for the next measurement", ge=0, lt=1)
-    predicted: whole("samples of the posterior from which velocities are predicted", 10, 10**4)
-    predicted_parts: whole("random initial conditions for each of them", 8, 10**4)
-    seed: Seed
-
-
-STUDY_CONVEYORS = {name: MODEL_TYPES[name] for name in ("frequency", "angle", "mass", "friction")} | {
-    name: number(f"dimensionless group of the {name}", "1", gt=0) for name in ("damping", "stiffness")
-}
-Sets = whole("data sets", 0, 10**6)
-
-
-class MeasuredExample(TypedDict):
-    model: mapping("the conveyor and the part", {name: MODEL_TYPES[name] for name in (*STUDY_CONVEYORS,)})
-    acceleration: interval(Acceleration, "lowest and highest amplitude")
-    amplitudes: whole("number of amplitudes", 2, 1000)
-    parts: whole("parts at each amplitude", 1, 1000)
-    noise: number("relative standard deviation of a velocity", ge=0, lt=1)
-    seed: Seed
-
-
-class CalibrationStudy(TypedDict):
-    sets: mapping(
-        "number of data sets of each kind",
-        dict.fromkeys(("rich", "poor", "phase_shift", "inclination", "effective_value", "exponent"), Sets),
-    )
-    conveyors: mapping(
-        "ranges of the random conveyors", {name: interval(item, name) for name, item in STUDY_CONVEYORS.items()}
-    )
-    throw_number: interval(number("throw number a_z/g", gt=0, le=100), "lowest and highest amplitude")
-    amplitudes: whole("amplitudes of a rich set", 2, 1000)
-    parts_of_study: whole("parts at each amplitude of a rich set", 1, 1000)
-    poor: whole("velocities of a poor set", 3, 1000)
-    duration: number("time over which a velocity is measured, and before", gt=0, le=1e4)
-    band: mapping(
-        "settings of the predicted band",
-        {name: Calibration.__annotations__[name] for name in ("amplitudes", "beyond", "predicted")},
-    )
-    held_out: whole("further velocities to check the predicted band", 1, 10**5)
-    wrong: mapping(
-        "differences that the calibration is not told",
-        {name: MODEL_TYPES[name] for name in ("phase_shift", "inclination", "exponent")},
-    )
-    seed: Seed
-    example: Annotated[MeasuredExample, Field(description="synthetic measurements of the example")]
 
 
 NumberOfClaim = word("quantity of a claim, as CLAIM.QUANTITY", *NUMBERS_OF_CLAIMS)
@@ -230,8 +141,7 @@ Config = TypedDict(
         **sensitivity.SECTIONS,
         **operating.SECTIONS,
         **excitation.SECTIONS,
-        "calibration": Annotated[Calibration, Field(description="parameters from measured velocities")],
-        "calibration_study": Annotated[CalibrationStudy, Field(description="simulation study of the calibration")],
+        **calibration.SECTIONS,
         "identification": Annotated[Identification, Field(description="parameters that the paper's numbers imply")],
         **figures.SECTIONS,
         **docs.SECTIONS,

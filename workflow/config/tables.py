@@ -89,11 +89,10 @@ def calibration_study_settings(config: dict) -> dict:
     own["ranges"] = {name: config["calibration"]["ranges"][name] for name in ("friction", "damping", "stiffness")}
     own["parameters"] = list(own["ranges"])
     box = {name: config["operating"][name] for name in ("height", "vz0", "psi0")}
-    study = {name: value for name, value in config["calibration_study"].items() if name != "example"}
     model = {
         name: value for name, value in model_of(config).items() if name not in ("z0", "static_friction", "psi0", "vz0")
     }
-    return {**study, **box, "calibration": own, "model": model}
+    return {**box, "calibration": own, "model": model}
 
 
 def precision_settings(config: dict, scene: str) -> dict:

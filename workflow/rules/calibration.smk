@@ -83,7 +83,7 @@ rule study_set:
     benchmark:
         benchmark_file("calibration_study/{kind}_{number}")
     wildcard_constraints:
-        kind=one_of(config["calibration_study"]["sets"]),
+        kind=one_of(STUDY_KINDS),
         number=r"\d+",
     params:
         **stage("calibration.study"),
@@ -125,8 +125,7 @@ if not HAS_MEASUREMENTS:
             benchmark_file("calibration/measured_example")
         params:
             **stage("calibration.synthetic"),
-            settings=PAPER["calibration_study"]["example"]
-            | {name: PAPER["operating"][name] for name in ("height", "vz0", "psi0")},
+            settings={name: PAPER["operating"][name] for name in ("height", "vz0", "psi0")},
         message:
             "Synthetic measurements for the example"
         script:

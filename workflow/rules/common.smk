@@ -3,6 +3,7 @@ import os
 import re
 import signal
 
+from scripts.calibration.effort import study_sets
 from scripts.pipeline.source_hash import source_hash
 from workflow.config.entries import ENTRIES, resolve
 from workflow.config.files import DEFAULT_FILES, ROOT
@@ -207,7 +208,7 @@ def calibration_files():
 
 
 # The data sets of the simulation study, numbered through.
-STUDY_KINDS = [kind for kind, count in config["calibration_study"]["sets"].items() for _ in range(count)]
+STUDY_KINDS = study_sets(config["calibration"]["effort"])
 STUDY_SETS = [result(f"calibration_study/{kind}_{number}.json") for number, kind in enumerate(STUDY_KINDS)]
 
 

@@ -1,0 +1,51 @@
+"""Numbers of samples of the calibration and of its simulation study, which `calibration.effort` multiplies.
+
+Imported by the Snakefile: no slow imports.
+"""
+
+# Of the search, by an effort of 1.
+FIRST = 256  # sets of parameters of the first round, which fills the ranges
+POINTS = 96  # of each further round
+ROUNDS = 20  # further rounds at most
+ENOUGH = 100.0  # effective number of samples at which a search ends; the ends of an interval move little with more
+# Effective number of samples from which intervals are given. A quick trial (an effort below 1) gives them with fewer,
+# and the page says so.
+EFFECTIVE, EFFECTIVE_OF_TRIAL = 40.0, 2.0
+# Of what follows from the posterior. A quick trial has fewer; with more, no number would change that a reader sees.
+PARTS = 24  # random initial conditions for each set of parameters and each amplitude
+SAMPLES = 256  # of the posterior in the table
+CHECKED = 16  # of these samples are tested against the measurements
+CHECKED_PARTS = 128  # random initial conditions for the density of this test, and as many for the replicates
+REPLICATES = 2000  # of all measurements, for each of the tested samples: p-values of 0.01 are known to ± 0.002
+AMPLITUDES = 65  # between the lowest and the highest measured one, at which velocities are predicted
+PREDICTED = 96  # samples from which velocities are predicted
+PREDICTED_PARTS = 8  # random initial conditions for each of them
+# Data sets of the simulation study: several parts at each of many amplitudes, a few velocities, and four faults.
+SETS = {"rich": 14, "poor": 18, "phase_shift": 5, "inclination": 5, "effective_value": 4, "exponent": 4}
+SETS_OF_TRIAL = {"rich": 1, "poor": 1}
+HELD_OUT = 20  # further parts of each data set at random amplitudes, to check the predicted band
+
+
+def sizes_of(effort: float) -> dict[str, float]:
+    """All numbers of samples for an effort, each at least as large as its use demands."""
+    most = min(effort, 1.0)
+    return {
+        "first": max(32, round(effort * FIRST)),
+        "points": max(32, round(effort * POINTS)),
+        "rounds": max(1, round(effort * ROUNDS)),
+        "enough": effort * ENOUGH,
+        "effective": min(EFFECTIVE if effort >= 1.0 else EFFECTIVE_OF_TRIAL, effort * ENOUGH),
+        "parts": max(8, round(most * PARTS)),
+        "samples": max(32, round(most * SAMPLES)),
+        "checked": max(2, round(most * CHECKED)),
+        "checked_parts": max(8, round(most * CHECKED_PARTS)),
+        "replicates": max(200, round(most * REPLICATES)),
+        "amplitudes": max(5, round(most * AMPLITUDES)),
+        "predicted": max(16, round(most * PREDICTED)),
+        "predicted_parts": PREDICTED_PARTS,
+    }
+
+
+def study_sets(effort: float) -> list[str]:
+    """The kinds of all data sets of the simulation study, in the order of their numbers."""
+    return [kind for kind, count in (SETS if effort >= 1.0 else SETS_OF_TRIAL).items() for _ in range(count)]
