@@ -1,6 +1,8 @@
 """Computer-assisted proofs of periodic orbits, bifurcations and chaos that were found in floating point."""
 
+import itertools
 import time
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
 from multiprocessing import get_context
@@ -23,6 +25,7 @@ from conveyor import (
 )
 from conveyor.certificates import (
     Accuracy,
+    Horseshoe,
     Law,
     ProvedOrbit,
     Refused,
@@ -132,6 +135,7 @@ HALF_ARC = 1e-6  # in g/ω², g/ω and g: half the length of the arc around a fo
 # the half axes, unstable to stable.
 SIZE, RATIO = 1e-6, 0.3
 LONGEST_EXCURSION = 14  # cycles, without approach and return
+MOST_EXCURSIONS = 4  # of a saddle that are tried, the shortest first; some cannot be proved
 
 
 class Line(NamedTuple):
@@ -309,6 +313,20 @@ def prove_bifurcation(settings: dict, kind: str, number: int, row: dict) -> dict
     }
 
 
+def prove_shortest(system: System, plans: Iterator[tuple[np.ndarray, list[np.ndarray]]]) -> Horseshoe:
+    """The first of MOST_EXCURSIONS planned horseshoes that can be proved.
+
+    Refused with the reason of the last one if none can.
+    """
+    reason = ""
+    for centres, axes in itertools.islice(plans, MOST_EXCURSIONS):
+        try:
+            return prove_horseshoe(system, centres, axes)
+        except Refused as refused:
+            reason = str(refused)
+    raise Refused(reason)
+
+
 def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) -> dict:
     """The row of one amplitude: a horseshoe at an unstable orbit of one cycle.
 
@@ -325,8 +343,7 @@ def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) 
     for saddle in sorted(saddles, key=lambda saddle: -abs(saddle.orbit.multipliers[0])):
         try:
             fixed = np.append(saddle.strobes[0], acceleration)
-            centres, axes = plan_sets(parameters, fixed, SIZE, RATIO, LONGEST_EXCURSION)
-            horseshoe = prove_horseshoe(system, centres, axes)
+            horseshoe = prove_shortest(system, plan_sets(parameters, fixed, SIZE, RATIO, LONGEST_EXCURSION))
         except Refused as refused:
             row["reason"] = str(refused)
             continue

@@ -29,3 +29,18 @@ def test_the_row_of_a_riding_part():
     assert np.isnan(found["impact_phase_low"])
     damping = Conveyor().damping / Conveyor().mass
     assert found["determinant_low"] == pytest.approx(np.exp(-damping * 0.02), rel=1e-12)
+
+
+def test_the_shortest_excursion_that_can_be_proved_is_taken(monkeypatch):
+    def prove(system, centres, axes):
+        if len(centres) < 3:
+            raise certified.Refused(f"{len(centres)} sets are too few")
+        return f"proved by {len(centres)} sets"
+
+    monkeypatch.setattr(certified, "prove_horseshoe", prove)
+    plans = [(np.zeros((count, 2)), []) for count in (1, 2, 3, 4)]
+    assert certified.prove_shortest(None, iter(plans)) == "proved by 3 sets"
+    with pytest.raises(certified.Refused, match="2 sets are too few"):
+        certified.prove_shortest(None, iter(plans[:2]))
+    with pytest.raises(certified.Refused, match="too few"):
+        certified.prove_shortest(None, iter(plans[:1] * certified.MOST_EXCURSIONS + plans[2:]))

@@ -111,7 +111,7 @@ def prove_horseshoe(system: System, points: np.ndarray, axes: list[np.ndarray]) 
     Parameters
     ----------
     system : the motion at an amplitude, and the accuracy of its steps
-    points, axes : centres and axes of N0 … Nm in units of the law, as from `excursion.plan_sets`
+    points, axes : centres and axes of N0 … Nm in units of the law, one of `excursion.plan_sets`
     """
     sets = [Parallelogram(exact(point[:, None]), exact(frame)) for point, frame in zip(points, axes, strict=True)]
     for part in sets[1:]:

@@ -72,17 +72,18 @@ def crossings(saddle: Saddle, longest: int) -> Iterator[tuple[int, float, float]
     Each has its number of cycles, and two neighbouring initial distances between which it begins.
     """
     distances = LEAVING * np.geomspace(1.0 / abs(saddle.multipliers[0]), 1.0, EXCURSIONS)
-    for side in (distances, -distances):
-        across = np.array([project(saddle, leave(saddle, distance, longest))[:, 0] for distance in side])
-        for cycles in range(2, longest + 1):
-            for k in np.flatnonzero(across[1:, cycles] * across[:-1, cycles] < 0.0):
+    sides = distances, -distances
+    across = [np.array([project(saddle, leave(saddle, one, longest))[:, 0] for one in side]) for side in sides]
+    for cycles in range(2, longest + 1):
+        for side, of_side in zip(sides, across, strict=True):
+            for k in np.flatnonzero(of_side[1:, cycles] * of_side[:-1, cycles] < 0.0):
                 yield cycles, side[k], side[k + 1]
 
 
-def find_excursion(saddle: Saddle, longest: int) -> np.ndarray:
-    """The shortest excursion that leaves along the unstable and returns along the stable direction, shape (n, 2).
+def find_excursions(saddle: Saddle, longest: int) -> Iterator[np.ndarray]:
+    """Excursions that leave along the unstable and return along the stable direction, each of the shape (n, 2).
 
-    Refused if no excursion of up to `longest` cycles returns.
+    The shortest come first. Refused after the last one, of up to `longest` cycles.
     """
     for cycles, low, high in crossings(saddle, longest):
         sign = project(saddle, leave(saddle, low, longest))[cycles, 0]
@@ -92,8 +93,8 @@ def find_excursion(saddle: Saddle, longest: int) -> np.ndarray:
             low, high = (centre, high) if same else (low, centre)
         path = leave(saddle, low, longest)[: cycles + 1]
         if np.abs(project(saddle, path[-1:])).max() < RETURNED:
-            return path
-    raise Refused(f"no excursion of up to {longest} cycles returns to the fixed point")
+            yield path
+    raise Refused(f"no further excursion of up to {longest} cycles returns to the fixed point")
 
 
 def correct_path(saddle: Saddle, path: np.ndarray) -> np.ndarray:
@@ -129,10 +130,10 @@ def carry_directions(matrices: list[np.ndarray], axes: np.ndarray) -> list[np.nd
 
 def plan_sets(
     parameters: np.ndarray, fixed: np.ndarray, size: float, ratio: float, longest: int
-) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Centres and axes of parallelograms around a fixed point and along an excursion from it.
+) -> Iterator[tuple[np.ndarray, list[np.ndarray]]]:
+    """Centres and axes of parallelograms around a fixed point and along an excursion from it, for each excursion.
 
-    Refused if the point is no saddle, or no excursion is found.
+    Refused if the point is no saddle, and after the longest excursion.
 
     Parameters
     ----------
@@ -142,14 +143,19 @@ def plan_sets(
     ratio : of the half axes of the first set, unstable to stable
     longest : cycles of the longest excursion to search for
 
-    Returns
-    -------
+    Yields
+    ------
     centres, axes : shape (n, 2), and n matrices of shape (2, 2); the first ones belong to the fixed point
     """
     saddle = find_saddle(parameters, fixed[2], fixed[:2])
-    path = find_excursion(saddle, longest)
-    # Iterates along the straight directions extend the path until both ends lie within the first set.
+    for path in find_excursions(saddle, longest):
+        yield sets_along(saddle, path, size, ratio)
+
+
+def sets_along(saddle: Saddle, path: np.ndarray, size: float, ratio: float) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Centres and axes of the parallelograms along one excursion; arguments and results as in `plan_sets`."""
     out, back = project(saddle, path[[0, -1]])[[0, 1], [0, 1]]
+    # Iterates along the straight directions extend the path until both ends lie within the first set.
     before, behind = [], []
     while abs(out) > BEGINNING * size:
         out /= saddle.multipliers[0]
@@ -159,7 +165,7 @@ def plan_sets(
         back *= saddle.multipliers[1]
         behind.append(saddle.point + back * saddle.axes[:, 1])
     path = correct_path(saddle, np.array([*before, *path, *behind]))
-    axes = carry_directions([differentiate(parameters, saddle.amplitude, point) for point in path], saddle.axes)
+    axes = carry_directions([differentiate(saddle.parameters, saddle.amplitude, point) for point in path], saddle.axes)
     first = saddle.axes / np.array([1.0, BEGINNING * size / abs(back)])
     # Both ends of the excursion lie within the set of the fixed point and need no sets of their own.
     return np.vstack([saddle.point, path[1:-1]]), [size * part for part in (first, *axes[1:-1])]
