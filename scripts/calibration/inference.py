@@ -50,13 +50,13 @@ def data_of(measured: list[Measurement], model: dict) -> Data:
     return Data(measured, conditions, of, velocity, sd, conditions.plate[of])
 
 
-def log_factors(found: np.ndarray, data: Data, settings: dict, inflations: tuple[float, ...]) -> np.ndarray:
+def log_factors(simulated: np.ndarray, data: Data, settings: dict, inflations: tuple[float, ...]) -> np.ndarray:
     """Logarithm of the density of each measurement for each inflation of its standard deviation, shape (m, n, r).
 
-    found : velocities under each condition, shape (n, k, parts)
+    simulated : velocities under each condition, shape (n, k, parts)
     """
-    spread = widths(found)[:, data.of]
-    arguments = (data.velocity, found[:, data.of], data.sd, data.plate, settings, spread)
+    spread = widths(simulated)[:, data.of]
+    arguments = (data.velocity, simulated[:, data.of], data.sd, data.plate, settings, spread)
     return np.array([log_densities(*arguments, inflation) for inflation in inflations])
 
 
@@ -68,18 +68,18 @@ def search_once(
 
     def worth(few: np.ndarray) -> np.ndarray:
         nonlocal best
-        found = log_factors(few, data, settings, INFLATIONS[:1])[0].sum(axis=1)
-        best = max(best, found.max())
-        return found > best - HOPELESS
+        log_likelihood = log_factors(few, data, settings, INFLATIONS[:1])[0].sum(axis=1)
+        best = max(best, log_likelihood.max())
+        return log_likelihood > best - HOPELESS
 
     def follow(points: np.ndarray) -> np.ndarray:
         nonlocal rounds
         options = {"parts": settings["parts"], "seed": [settings["seed"], number, rounds]}
         options |= {"threads": threads, "worth": worth}
         label = progress and f"{progress}: search {number + 1}, round {rounds} of at most {settings['rounds']}"
-        found = velocities(values_at(points, settings), data.conditions, settings, **options, progress=label)
+        simulated = velocities(values_at(points, settings), data.conditions, settings, **options, progress=label)
         rounds += 1
-        return log_factors(found, data, settings, INFLATIONS)
+        return log_factors(simulated, data, settings, INFLATIONS)
 
     options = {name: settings[name] for name in ("first", "points", "rounds", "enough")}
     return sample(follow, bounds_of(settings), **options, seed=[settings["seed"], number], near=near)
@@ -103,16 +103,16 @@ def search(
     own, samples = settings | {"enough": settings["enough"] / first}, []
     while len(samples) < most:
         samples.append(search_once(data, own, len(samples), near, threads, progress))
-        found = pooled(samples)
-        if len(samples) >= first and agree(found, settings):
+        posterior = pooled(samples)
+        if len(samples) >= first and agree(posterior, settings):
             break
-    return found
+    return posterior
 
 
-def draw(found: Sample, count: int) -> np.ndarray:
+def draw(posterior: Sample, count: int) -> np.ndarray:
     """Places of `count` samples in proportion to their weights, evenly spaced in the sum of the weights."""
-    places = np.searchsorted(np.cumsum(found.weights), (0.5 + np.arange(count)) / count)
-    return np.minimum(places, len(found.weights) - 1)
+    places = np.searchsorted(np.cumsum(posterior.weights), (0.5 + np.arange(count)) / count)
+    return np.minimum(places, len(posterior.weights) - 1)
 
 
 def centre(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
@@ -120,13 +120,13 @@ def centre(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return np.array([quantiles(column, weights, [0.5])[0] for column in points.T])
 
 
-def summarize(found: Sample, weights: np.ndarray, settings: dict) -> np.ndarray:
+def summarize(posterior: Sample, weights: np.ndarray, settings: dict) -> np.ndarray:
     """Best value and ends of the interval of each parameter, or their logarithms (LOGARITHMIC), shape (d, 3).
 
     weights : of the points, shape (n,), with the sum 1
     """
-    best = values_at(centre(found.points, weights)[None], settings)
-    values, rows = values_at(found.points, settings), []
+    best = values_at(centre(posterior.points, weights)[None], settings)
+    values, rows = values_at(posterior.points, settings), []
     for name in settings["parameters"]:
         middle, own = best[name][0], values[name]
         if name in LOGARITHMIC:
@@ -135,29 +135,31 @@ def summarize(found: Sample, weights: np.ndarray, settings: dict) -> np.ndarray:
     return np.array(rows)
 
 
-def errors(found: Sample, settings: dict) -> np.ndarray:
+def errors(posterior: Sample, settings: dict) -> np.ndarray:
     """Monte Carlo errors of what `summarize` gives, shape (d, 3)."""
-    return monte_carlo_error(found.weights, found.search, lambda weights: summarize(found, weights, settings))
+    return monte_carlo_error(
+        posterior.weights, posterior.search, lambda weights: summarize(posterior, weights, settings)
+    )
 
 
-def agree(found: Sample, settings: dict) -> bool:
+def agree(posterior: Sample, settings: dict) -> bool:
     """Whether another set of searches would give nearly the same best values and intervals."""
-    summary = summarize(found, found.weights, settings)
-    return bool(np.all(errors(found, settings) <= REPEATABLE * (summary[:, 2] - summary[:, 1])[:, None]))
+    summary = summarize(posterior, posterior.weights, settings)
+    return bool(np.all(errors(posterior, settings) <= REPEATABLE * (summary[:, 2] - summary[:, 1])[:, None]))
 
 
-def summarize_parameters(found: Sample, settings: dict) -> list[dict]:
+def summarize_parameters(posterior: Sample, settings: dict) -> list[dict]:
     """The rows of the table of parameters."""
-    bounds, middle = bounds_of(settings), centre(found.points, found.weights)
-    summary, deviations = summarize(found, found.weights, settings), errors(found, settings)
-    rows, reliable = [], found.size >= settings["effective"]
+    bounds, middle = bounds_of(settings), centre(posterior.points, posterior.weights)
+    summary, deviations = summarize(posterior, posterior.weights, settings), errors(posterior, settings)
+    rows, reliable = [], posterior.size >= settings["effective"]
     for column, name in enumerate(settings["parameters"]):
         is_log = name in LOGARITHMIC
         ends = np.tile(middle, (2, 1))
         ends[:, column] = bounds[:, column]
         range_low, range_high = values_at(ends, settings)[name]
         best, low, high = summary[column]
-        open_low, open_high = open_ends(found.points[:, column], found.weights, bounds[:, column])
+        open_low, open_high = open_ends(posterior.points[:, column], posterior.weights, bounds[:, column])
         searched = math.log(range_high / range_low) if is_log else range_high - range_low
         is_wide = high - low > WIDE * searched
         status = (
@@ -187,8 +189,8 @@ def summarize_parameters(found: Sample, settings: dict) -> list[dict]:
                 "range_low": range_low,
                 "range_high": range_high,
                 "status": status if reliable else TOO_FEW,
-                "effective": found.size,
-                "searches": int(found.search.max()) + 1,
+                "effective": posterior.size,
+                "searches": int(posterior.search.max()) + 1,
             }
         )
     return rows

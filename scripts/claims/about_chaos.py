@@ -31,7 +31,7 @@ def no_period(*, euler: pd.DataFrame, converged: pd.DataFrame, horseshoes: pd.Da
         return [closest_return(run) for _, run in table.groupby("z0")]
 
     returns = by_method(find_returns, euler, converged)
-    closest = {method: min(found) for method, found in returns.items()}
+    closest = {method: min(distances) for method, distances in returns.items()}
     note = (
         f"No motion repeats itself with a period of up to {LONGEST_PERIOD} cycles. The best period misses by "
         + " and ".join(
@@ -39,7 +39,9 @@ def no_period(*, euler: pd.DataFrame, converged: pd.DataFrame, horseshoes: pd.Da
             for method, (distance, period) in closest.items()
         )
     )
-    shares = ({"share": float(np.mean([distance > CLOSE for distance, _ in found]))} for found in returns.values())
+    shares = (
+        {"share": float(np.mean([distance > CLOSE for distance, _ in distances]))} for distances in returns.values()
+    )
     return Finding(*shares, note + about_proofs.describe_chaos(horseshoes))
 
 
@@ -55,12 +57,12 @@ def irregular(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
 
 def height_estimate(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
     """Lowest amplitude (m/s²) with a positive estimate, and changes of its sign between 50 and 60 m/s²."""
-    found = []
+    quantities = []
     for table in (euler, converged):
         between = table[table.acceleration.between(50.0, 60.0)]
         changes = float((np.diff(np.sign(between["lambda"])) != 0.0).sum())
-        found.append({"lowest_positive": table[table["lambda"] > 0.0].acceleration.min(), "changes": changes})
-    return Finding(*found)
+        quantities.append({"lowest_positive": table[table["lambda"] > 0.0].acceleration.min(), "changes": changes})
+    return Finding(*quantities)
 
 
 def positive_onset(table: pd.DataFrame) -> float:
@@ -95,11 +97,11 @@ def phase_estimate(
         return table[table.acceleration.between(begin, end, inclusive="left")]
 
     settled = with_settled_motion(converged, states)
-    found = by_method(lambda table: between(table)["lambda"], euler, converged)
+    exponents = by_method(lambda table: between(table)["lambda"], euler, converged)
     texts = [
         f"{100 * (values > 0.0).mean():.0f} % of the amplitudes by the {METHODS[method]} (median "
         f"{values.median():+.2f} 1/s)"
-        for method, values in found.items()
+        for method, values in exponents.items()
     ]
     note = (
         f"Between {format_amplitude(begin)} and {format_amplitude(end)}, the estimate is positive at {texts[0]} and at "
@@ -131,14 +133,14 @@ def portraits(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
         values = (*map(float, low.dimension), float(high.dimension.iloc[0]))
         return dict(zip(("first", "second", "chaos"), values, strict=True))
 
-    found = by_method(dimensions, euler, converged)
-    texts = {method: ", ".join(f"{value:.3f}" for value in values.values()) for method, values in found.items()}
+    of_methods = by_method(dimensions, euler, converged)
+    texts = {method: ", ".join(f"{value:.3f}" for value in values.values()) for method, values in of_methods.items()}
     note = (
         f"The converged dimensions are {texts['converged']}, with 95 % intervals of at most "
         f"±{converged.error.max():.2f}. Box counting as in the paper includes the transient and uses too few scales; "
         f"it gives {texts['euler']}"
     )
-    return Finding(found["euler"], found["converged"], note)
+    return Finding(of_methods["euler"], of_methods["converged"], note)
 
 
 def known_dimensions(table: pd.DataFrame) -> pd.DataFrame:
@@ -167,11 +169,11 @@ def predicted_onset(
 
     The fluctuation is the largest step of the dimension between neighbouring amplitudes with an estimate.
     """
-    found = []
+    quantities = []
     for table, exponent in ((euler, euler_exponent), (converged, converged_exponent)):
         by_dimension, by_exponent = dimension_onset(table), positive_onset(exponent)
         steps = np.abs(np.diff(known_dimensions(table).dimension))
-        found.append(
+        quantities.append(
             {"distance": abs(by_dimension - by_exponent), "largest_step": float(steps.max()) if len(steps) else NONE}
         )
     unknown = converged[converged.dimension.isna()].acceleration
@@ -189,11 +191,11 @@ def predicted_onset(
         f"begins at {format_amplitude(chaos[0])} for the one of Fig. 24, and at {format_amplitude(chaos[1])} for the "
         "one of Fig. 22, on the plate"
     )
-    return Finding(*found, note)
+    return Finding(*quantities, note)
 
 
 def dimension_range(euler: pd.DataFrame, states: pd.DataFrame, state: str) -> str:
     """Least and largest dimension, by box counting as in the paper, of the motions that settle to a state."""
     rows = with_settled_motion(euler, states)
-    found = rows[rows.state == state].dimension
-    return f"{found.min():.2f} to {found.max():.2f}"
+    dimensions = rows[rows.state == state].dimension
+    return f"{dimensions.min():.2f} to {dimensions.max():.2f}"

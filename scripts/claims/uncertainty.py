@@ -10,8 +10,8 @@ from claims import verdicts
 
 def differences(now: list[float], tighter: list[float]) -> list[float | None]:
     """The absolute change of each number; None if one of the two is NaN."""
-    found = [abs(one - other) for one, other in zip(now, tighter, strict=True)]
-    return [None if math.isnan(value) else value for value in found]
+    differences = [abs(one - other) for one, other in zip(now, tighter, strict=True)]
+    return [None if math.isnan(value) else value for value in differences]
 
 
 def make(settings: dict, references: list[str], read: list[pd.DataFrame], claims: pd.DataFrame) -> str:
@@ -23,11 +23,11 @@ def make(settings: dict, references: list[str], read: list[pd.DataFrame], claims
     """
     tables = dict(zip(references, read, strict=True))
     before = claims.set_index("id")
-    found = {}
+    by_claim = {}
     for name, claim in settings["claims"].items():
         finding = verdicts.evaluate(claim, tables)
         tighter = verdicts.numbers(finding.converged, claim["quantities"])
         changes = differences(before.converged[name], tighter)
         same_verdict = verdicts.verdict(finding, claim["quantities"]) == before.verdict[name]
-        found[name] = {"changes": changes, "same_verdict": same_verdict}
-    return json.dumps(found, indent=1)
+        by_claim[name] = {"changes": changes, "same_verdict": same_verdict}
+    return json.dumps(by_claim, indent=1)

@@ -44,21 +44,21 @@ def first_clipped(values: np.ndarray, quantum: float) -> int | None:
 
 def clipped(readings: np.ndarray, quantum: float) -> int | None:
     """The first sample at which readings are cut off, above or below; None if they are not."""
-    found = [first_clipped(values, quantum) for values in (readings, -readings)]
-    return min((sample for sample in found if sample is not None), default=None)
+    samples = [first_clipped(values, quantum) for values in (readings, -readings)]
+    return min((sample for sample in samples if sample is not None), default=None)
 
 
-def further_line(time: np.ndarray, found: Fit) -> tuple[float, float] | None:
+def further_line(time: np.ndarray, fitted: Fit) -> tuple[float, float] | None:
     """Frequency (Hz) and amplitude (m/s²) of the strongest line that is no multiple of the fundamental, or None."""
-    frequencies, amplitudes = spectrum(time, found.residual)
+    frequencies, amplitudes = spectrum(time, fitted.residual)
     resolution = 1.0 / duration_of(time)
-    multiple = np.round(frequencies / found.frequency)
+    multiple = np.round(frequencies / fitted.frequency)
     # Where an amplitude drifts, its line has a foot.
-    own = (np.abs(frequencies - multiple * found.frequency) < FOOT * resolution) & (multiple > 0.0)
-    searched = ~own & (frequencies > max(found.frequency / (MOST_SUBHARMONIC + 0.5), 3.0 * resolution))
+    own = (np.abs(frequencies - multiple * fitted.frequency) < FOOT * resolution) & (multiple > 0.0)
+    searched = ~own & (frequencies > max(fitted.frequency / (MOST_SUBHARMONIC + 0.5), 3.0 * resolution))
     if not searched.any():
         return None
-    shares = amplitudes / np.abs(found.amplitudes[:, :1])
+    shares = amplitudes / np.abs(fitted.amplitudes[:, :1])
     axis, place = np.unravel_index(np.argmax(np.where(searched, shares, 0.0)), shares.shape)
     amplitude = amplitudes[axis, place]
     stands_out = amplitude**2 > OUT_OF_NOISE * np.median(amplitudes[axis, searched] ** 2)
@@ -116,8 +116,8 @@ def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iter
                 f"{name} = {readings[sample] / UNITS[unit]:.4g} is cut off there and in other cycles; record again "
                 "with a larger range of the sensor",
             )
-    found, other = first_fit(time, signals)
-    rate, frequency = sampling_rate(recording.time), found.frequency
+    fitted, other = first_fit(time, signals)
+    rate, frequency = sampling_rate(recording.time), fitted.frequency
     cycles, per_cycle = duration_of(recording.time) * frequency, rate / frequency
     if cycles < LEAST_CYCLES - 0.1:
         yield None, f"holds {cycles:.2g} cycles of {frequency:.3g} Hz; record at least {LEAST_CYCLES}"
@@ -144,9 +144,9 @@ def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iter
             "sampling rate looks like such a line",
         )
         return
-    sizes = np.abs(found.amplitudes[:, 0])
-    yield from ((None, fault) for fault in unit_faults(float(np.hypot(*sizes)), frequency, found.offsets, unit))
-    noise = np.sqrt(4.0 * (found.residual**2).mean(axis=1) / len(time))
+    sizes = np.abs(fitted.amplitudes[:, 0])
+    yield from ((None, fault) for fault in unit_faults(float(np.hypot(*sizes)), frequency, fitted.offsets, unit))
+    noise = np.sqrt(4.0 * (fitted.residual**2).mean(axis=1) / len(time))
     for axis, name in enumerate(("along", "normal")):
         if sizes[axis] < max(NO_FUNDAMENTAL * np.hypot(*sizes), 4.0 * noise[axis]):
             direction = f"{name} the track" if name == "along" else "normal to the track"

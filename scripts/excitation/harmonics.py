@@ -130,8 +130,8 @@ def fit(time: np.ndarray, signals: np.ndarray, guess: float, orders: int) -> Fit
         return -resolution * project(centred, slope, frequency, orders)[1].reshape(-1, 1)
 
     options = {"xtol": 1e-10, "ftol": 1e-12, "gtol": None, "max_nfev": 12}
-    found = least_squares(residual, [0.0], jacobian, bounds=(-SEARCHED, SEARCHED), **options)
-    frequency = guess + float(found.x[0]) * resolution
+    minimum = least_squares(residual, [0.0], jacobian, bounds=(-SEARCHED, SEARCHED), **options)
+    frequency = guess + float(minimum.x[0]) * resolution
     values, rest = project(centred, signals, frequency, orders)
     amplitudes = (values[2 : 2 + orders] - 1j * values[2 + orders :]).T
     return Fit(frequency, middle, amplitudes, values[0], rest)

@@ -98,24 +98,24 @@ def rounded(columns: dict) -> dict:
     }
 
 
-def cycles_of(recording: Recording, found: Fit) -> np.ndarray:
+def cycles_of(recording: Recording, fitted: Fit) -> np.ndarray:
     """Phase of every sample in cycles; the fundamental normal to the track has its maximum at whole numbers."""
-    zero = np.angle(found.amplitudes[1, 0]) / (2.0 * math.pi)
-    return (recording.time - found.middle) * found.frequency + zero
+    zero = np.angle(fitted.amplitudes[1, 0]) / (2.0 * math.pi)
+    return (recording.time - fitted.middle) * fitted.frequency + zero
 
 
-def steadiness(recording: Recording, found: Fit) -> dict[str, float]:
+def steadiness(recording: Recording, fitted: Fit) -> dict[str, float]:
     """How the amplitude of the fundamental changes from piece to piece of the recording."""
-    cycles = found.frequency * duration_of(recording.time)
+    cycles = fitted.frequency * duration_of(recording.time)
     pieces = max(2, min(MOST_PIECES, math.floor(cycles / PIECE)))
-    time = recording.time - found.middle
+    time = recording.time - fitted.middle
     begins = np.searchsorted(time, np.linspace(time[0], time[-1], pieces, endpoint=False))
     sizes = np.diff([*begins, len(time)])
-    waves = np.exp(-2j * math.pi * found.frequency * time)
-    weights = np.abs(found.amplitudes[:, 0]) ** 2
-    errors = 2.0 * np.add.reduceat(found.residual * waves, begins, axis=1) / sizes / found.amplitudes[:, :1]
+    waves = np.exp(-2j * math.pi * fitted.frequency * time)
+    weights = np.abs(fitted.amplitudes[:, 0]) ** 2
+    errors = 2.0 * np.add.reduceat(fitted.residual * waves, begins, axis=1) / sizes / fitted.amplitudes[:, :1]
     amplitude = weights @ errors.real / weights.sum()
-    noise = (found.residual**2).mean(axis=1) * 2.0 / sizes.mean()
+    noise = (fitted.residual**2).mean(axis=1) * 2.0 / sizes.mean()
     middles = np.add.reduceat(time, begins) / sizes
     return {
         "pieces": pieces,
@@ -125,14 +125,14 @@ def steadiness(recording: Recording, found: Fit) -> dict[str, float]:
     }
 
 
-def waveform(found: Fit, above: np.ndarray) -> dict[str, np.ndarray]:
+def waveform(fitted: Fit, above: np.ndarray) -> dict[str, np.ndarray]:
     """One cycle of the plate; `above` says which harmonics of orders 2, 3, … of each axis count, shape (2, K - 1)."""
     cycle = np.linspace(0.0, 1.0, POINTS)
-    orders = np.arange(1, found.orders + 1)
-    zero = np.angle(found.amplitudes[1, 0])
+    orders = np.arange(1, fitted.orders + 1)
+    zero = np.angle(fitted.amplitudes[1, 0])
     waves = np.exp(1j * np.outer(orders, 2.0 * math.pi * cycle - zero))
-    used = found.amplitudes * np.hstack([np.ones((2, 1)), above])
-    squares = (2.0 * math.pi * found.frequency * orders) ** 2
+    used = fitted.amplitudes * np.hstack([np.ones((2, 1)), above])
+    squares = (2.0 * math.pi * fitted.frequency * orders) ** 2
     columns = {"cycle": cycle}
     for axis, name in enumerate(AXES):
         columns[name] = (used[axis] @ waves).real
@@ -142,14 +142,14 @@ def waveform(found: Fit, above: np.ndarray) -> dict[str, np.ndarray]:
     return columns
 
 
-def spectra(recording: Recording, found: Fit) -> dict[str, np.ndarray]:
+def spectra(recording: Recording, fitted: Fit) -> dict[str, np.ndarray]:
     """Amplitude spectra up to a little beyond the highest order, as the maximum of groups of frequencies, and the floor
     of the noise."""
-    frequencies, amplitudes = spectrum(recording.time, recording.acceleration - found.offsets[:, None])
-    noise = spectrum(recording.time, found.residual)[1]
-    count = np.searchsorted(frequencies, (found.orders + 0.5) * found.frequency)
+    frequencies, amplitudes = spectrum(recording.time, recording.acceleration - fitted.offsets[:, None])
+    noise = spectrum(recording.time, fitted.residual)[1]
+    count = np.searchsorted(frequencies, (fitted.orders + 0.5) * fitted.frequency)
     begins = np.unique(np.linspace(0, count, min(count, BINS), endpoint=False).astype(np.int64))
-    width = max(3, round(len(begins) / (found.orders + 0.5)))  # one frequency of the drive
+    width = max(3, round(len(begins) / (fitted.orders + 0.5)))  # one frequency of the drive
     columns = {"frequency": frequencies[begins]}
     for axis, name in enumerate(AXES):
         columns[name] = np.maximum.reduceat(amplitudes[axis, :count], begins)
@@ -162,27 +162,27 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
     recording = parse(measured, settings["measured"], settings)
     rate = sampling_rate(recording.time)
     first, other = first_fit(recording.time, recording.acceleration)
-    found = fit(recording.time, recording.acceleration, first.frequency, orders_of(rate, first.frequency))
-    noise = noise_of(recording, found)
-    shares = harmonics(found, noise)
+    fitted = fit(recording.time, recording.acceleration, first.frequency, orders_of(rate, first.frequency))
+    noise = noise_of(recording, fitted)
+    shares = harmonics(fitted, noise)
     above = np.array([shares[f"{axis}_above_noise"] for axis in AXES])
     distortion = np.sqrt((np.array([shares[axis] for axis in AXES]) ** 2 * above).sum(axis=1))
-    values, errors = zip(*parameters(recording, found, noise).values(), strict=True)
-    cycle = cycles_of(recording, found)
+    values, errors = zip(*parameters(recording, fitted, noise).values(), strict=True)
+    cycle = cycles_of(recording, fitted)
     chosen = np.unique(np.linspace(0, len(cycle) - 1, SAMPLES).round().astype(np.int64))
     quality = {
         "samples": len(recording.time),
         "sampling_rate": rate,
-        "cycles": found.frequency * duration_of(recording.time),
+        "cycles": fitted.frequency * duration_of(recording.time),
         "other_frequency": other[0] if other else math.nan,
         "other_amplitude": other[1] if other else math.nan,
-        **steadiness(recording, found),
+        **steadiness(recording, fitted),
     }
     for axis, name in enumerate(AXES):
-        quality[f"{name}_offset"] = found.offsets[axis]
-        quality[f"{name}_noise"] = math.sqrt((found.residual[axis] ** 2).mean())
+        quality[f"{name}_offset"] = fitted.offsets[axis]
+        quality[f"{name}_noise"] = math.sqrt((fitted.residual[axis] ** 2).mean())
         quality[f"{name}_distortion"] = distortion[axis]
-    samples = recording.acceleration[:, chosen] - found.offsets[:, None]
+    samples = recording.acceleration[:, chosen] - fitted.offsets[:, None]
     tables = {
         "parameters": {
             "parameter": list(PARAMETERS),
@@ -193,7 +193,7 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
         "harmonics": shares,
         "quality": {name: [value] for name, value in quality.items()},
         "samples": {"cycle": np.mod(cycle[chosen], 1.0), **dict(zip(AXES, samples, strict=True))},
-        "waveform": waveform(found, above),
-        "spectrum": spectra(recording, found),
+        "waveform": waveform(fitted, above),
+        "spectrum": spectra(recording, fitted),
     }
     return {name: rounded(columns) for name, columns in tables.items()}

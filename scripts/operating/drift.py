@@ -81,8 +81,8 @@ def drift_at(acceleration: float, x: np.ndarray, is_low: np.ndarray, period: flo
     whole, *sets = (random_walk(displacements[of], period) for of in (known, is_low, ~is_low))
     row |= {"velocity": whole.velocity, "velocity_stderr": whole.velocity_stderr, "status": whole.status}
     row |= {"diffusion": whole.diffusion, "diffusion_stderr": whole.diffusion_stderr, "window": whole.window}
-    for number, found in enumerate(sets, start=1):
-        row |= {f"velocity_{number}": found.velocity, f"velocity_{number}_stderr": found.velocity_stderr}
+    for number, chaotic in enumerate(sets, start=1):
+        row |= {f"velocity_{number}": chaotic.velocity, f"velocity_{number}_stderr": chaotic.velocity_stderr}
     return row
 
 
@@ -97,8 +97,8 @@ def drift_table(amplitudes: np.ndarray, settings: dict, **options) -> pd.DataFra
     rows = population(amplitudes, runs, IDENTICAL)
     x = positions(rows, settings, **options).reshape(len(amplitudes), len(height), -1)
     period = 1.0 / settings["model"]["frequency"]
-    found = [drift_at(acceleration, of, is_low, period) for acceleration, of in zip(amplitudes, x, strict=True)]
-    return pd.DataFrame(found, columns=columns)
+    rows = [drift_at(acceleration, of, is_low, period) for acceleration, of in zip(amplitudes, x, strict=True)]
+    return pd.DataFrame(rows, columns=columns)
 
 
 def lengths_table(regimes: pd.DataFrame, drifts: pd.DataFrame, settings: dict, **options) -> pd.DataFrame:
@@ -112,7 +112,7 @@ def lengths_table(regimes: pd.DataFrame, drifts: pd.DataFrame, settings: dict, *
         for acceleration in spaced(amplitudes, OF_EACH_REGIME):
             run = follow(population(np.array([acceleration]), settings, IDENTICAL), settings, **track, **options)
             right = run["status"] == "ok"
-            found, errors = zip(*(quantiles(velocity) for velocity in run["velocity"][right].T), strict=True)
+            values, errors = zip(*(quantiles(velocity) for velocity in run["velocity"][right].T), strict=True)
             own = drifts[drifts.acceleration == acceleration]
             predicted = np.full(len(factors), np.nan)
             if regime == CHAOS:
@@ -123,8 +123,8 @@ def lengths_table(regimes: pd.DataFrame, drifts: pd.DataFrame, settings: dict, *
                         "acceleration": acceleration,
                         "regime": regime,
                         "length": track["lengths"],
-                        "spread": spread_of(np.array(found).T),
-                        "spread_stderr": spread_stderr(np.array(found).T, np.array(errors).T),
+                        "spread": spread_of(np.array(values).T),
+                        "spread_stderr": spread_stderr(np.array(values).T, np.array(errors).T),
                         "predicted": predicted,
                         "late": np.isnan(run["arrival"][right]).mean(axis=0),
                     }

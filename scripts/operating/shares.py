@@ -49,17 +49,17 @@ MOST_CYCLES = 4000  # upper limit of cycles of a brief run
 FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
 
 
-def groups(found: Columns, conveyor: np.ndarray) -> np.ndarray:
+def groups(labels: Columns, conveyor: np.ndarray) -> np.ndarray:
     """The number of the motion that each label belongs to, int64, shape (n,); it ascends with the conveyor.
 
     Labels of one motion have one conveyor, one state and one period, and their longest flights are neighbours.
 
     conveyor : number of the conveyor of each label, shape (n,)
     """
-    flights = np.nan_to_num(found.longest_flight, nan=-1.0)
-    order = np.lexsort((flights, found.period, found.state, conveyor))
+    flights = np.nan_to_num(labels.longest_flight, nan=-1.0)
+    order = np.lexsort((flights, labels.period, labels.state, conveyor))
     same = np.diff(flights[order]) <= APART
-    for column in (conveyor, found.state, found.period):
+    for column in (conveyor, labels.state, labels.period):
         same &= column[order][1:] == column[order][:-1]
     number = np.empty(len(order), dtype=np.int64)
     number[order] = np.concatenate([[0], np.cumsum(~same)])
@@ -92,7 +92,7 @@ def last_quarters(
 
 
 def velocities(
-    parameters: np.ndarray, found: Columns, settings: dict, *, threads: int = 1
+    parameters: np.ndarray, labels: Columns, settings: dict, *, threads: int = 1
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mean feeding velocity (m/s) of settled trajectories, shape (n,); the largest speed of approach (m/s) and contact
     force (N) over the same cycles, whole periods of the motion, shape (n, 2); and the status.
@@ -102,11 +102,11 @@ def velocities(
     they must agree in chaos, too, because the part may be about to slide away. In all, they are followed for at most as
     many cycles as the searches for a map; the velocities of the slowest ones are then not known.
 
-    parameters, found : shape (n,), and the labels of the trajectories
+    parameters, labels : shape (n,), and the labels of the trajectories
     """
-    n, period = len(parameters), found.period
+    n, period = len(parameters), labels.period
     # A motion without a period is not more settled in later cycles.
-    settled = np.where(period > 0, found.cycles, np.minimum(found.cycles, settings["cycles"]))
+    settled = np.where(period > 0, labels.cycles, np.minimum(labels.cycles, settings["cycles"]))
     velocity, status = np.full(n, np.nan), np.full(n, regimes.UNSETTLED, dtype=object)
     peaks = np.full((n, 2), np.nan)
     plate = regimes.plate_speed(parameters)
@@ -233,8 +233,8 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     table = shares_at(amplitudes, settings, threads=threads, progress=progress)
     while True:
         summary = regimes.summarize_amplitudes(table)
-        places, found = summary.acceleration.to_numpy(), summary.regime.to_numpy()
-        wide = (found[1:] != found[:-1]) & (np.diff(places) > settings["resolution"])
+        places, regime = summary.acceleration.to_numpy(), summary.regime.to_numpy()
+        wide = (regime[1:] != regime[:-1]) & (np.diff(places) > settings["resolution"])
         if not wide.any() or len(places) >= len(amplitudes) + MOST_ADDED:
             return {"shares": table, "regimes": regimes.intervals_of(summary, table)}
         between = 0.5 * (places[1:] + places[:-1])[wide]

@@ -72,25 +72,25 @@ def follow(
 
 def quantiles(velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The quantiles of velocities, shape (n,), and their standard errors (Maritz and Jarrett 1978), shape (5,)."""
-    found = np.quantile(velocity, PROBABILITIES)
+    values = np.quantile(velocity, PROBABILITIES)
     # Without the offset, equal velocities have the error 0 in spite of rounding.
-    return found, mjci(velocity - found[2], PROBABILITIES)
+    return values, mjci(velocity - values[2], PROBABILITIES)
 
 
-def relative_spread(found: np.ndarray) -> np.ndarray:
+def relative_spread(values: np.ndarray) -> np.ndarray:
     """95 % quantile minus 5 % quantile, over the size of the median; NaN for a median of 0.
 
-    found : quantiles at PROBABILITIES, shape (5, ...)
+    values : quantiles at PROBABILITIES, shape (5, ...)
     """
-    return (found[-1] - found[0]) / np.where(found[2], np.abs(found[2]), np.nan)
+    return (values[-1] - values[0]) / np.where(values[2], np.abs(values[2]), np.nan)
 
 
-def spread_stderr(found: np.ndarray, errors: np.ndarray) -> np.ndarray:
+def spread_stderr(values: np.ndarray, errors: np.ndarray) -> np.ndarray:
     """Standard error of the relative spread; NaN for a median of 0.
 
-    found, errors : quantiles at PROBABILITIES and their standard errors, shape (5, ...)
+    values, errors : quantiles at PROBABILITIES and their standard errors, shape (5, ...)
     """
-    return np.hypot(errors[0], errors[-1]) / np.where(found[2], np.abs(found[2]), np.nan)
+    return np.hypot(errors[0], errors[-1]) / np.where(values[2], np.abs(values[2]), np.nan)
 
 
 def upper(peaks: np.ndarray) -> float:
@@ -105,12 +105,12 @@ def summarize(run: dict[str, np.ndarray], part: slice = slice(None)) -> dict[str
     velocity, arrival = run["velocity"][part][right, 0], run["arrival"][part][right, 0]
     if not right.any():
         return dict.fromkeys((column.name for column in MEASURES), math.nan) | {"failed": len(right)}
-    found, errors = quantiles(velocity)
+    values, errors = quantiles(velocity)
     return {
-        **dict(zip(QUANTILES, found, strict=True)),
+        **dict(zip(QUANTILES, values, strict=True)),
         **{f"{name}_stderr": error for name, error in zip(QUANTILES, errors, strict=True)},
         "mean_velocity": velocity.mean(),
-        "spread": relative_spread(found),
+        "spread": relative_spread(values),
         "late": np.isnan(arrival).mean(),
         "back": (velocity < 0.0).mean(),
         **{name: upper(run[name][part][right]) for name in ("impact_speed", "peak_force")},

@@ -209,15 +209,15 @@ def doubled_lines(
     parameters: np.ndarray, cascade: pd.DataFrame, longest: tuple[int, int], limits: tuple[float, float]
 ) -> list[Line]:
     """Branches of the cascade whose periods are longer than the stored ones, up to the longest one to prove."""
-    found = []
+    lines = []
     for row in cascade.itertuples():
         period = 2 * int(row.period)
         if longest[0] < period <= longest[1] and limits[0] < row.acceleration < limits[1]:
             orbit = find_orbit(parameters, row.acceleration, np.array([row.delta, row.v]), int(row.period))
             new = find_doubled_orbit(parameters, Bifurcation("period_doubling", orbit, -1.0))
             branch = follow_branch(parameters, new, limits).orbits
-            found.append(Line(period, np.array([[*orbit.state, orbit.acceleration] for orbit in branch])))
-    return found
+            lines.append(Line(period, np.array([[*orbit.state, orbit.acceleration] for orbit in branch])))
+    return lines
 
 
 def orbits_to_prove(settings: dict, branches: pd.DataFrame, cascade: pd.DataFrame) -> list[FloatOrbit]:
@@ -259,11 +259,11 @@ def certificate_columns(units: Law, orbit: ProvedOrbit) -> dict[str, float]:
     return columns
 
 
-def prove_float_orbit(settings: dict, found: FloatOrbit) -> dict:
+def prove_float_orbit(settings: dict, unproved: FloatOrbit) -> dict:
     """The row of one orbit."""
-    stored, problem = found.orbit, shooting(settings, found.orbit.period)
+    stored, problem = unproved.orbit, shooting(settings, unproved.orbit.period)
     row = {
-        "branch": found.branch,
+        "branch": unproved.branch,
         "acceleration": stored.acceleration,
         "period": stored.period,
         "stored_delta": stored.state[0],
@@ -273,8 +273,8 @@ def prove_float_orbit(settings: dict, found: FloatOrbit) -> dict:
         "stability": "open",
     }
     try:
-        orbit = prove_orbit(problem, problem.law.gamma(exactly(stored.acceleration)), found.strobes)
-        distance = check_near(orbit, found.strobes, CLOSENESS)
+        orbit = prove_orbit(problem, problem.law.gamma(exactly(stored.acceleration)), unproved.strobes)
+        distance = check_near(orbit, unproved.strobes, CLOSENESS)
     except Refused as refused:
         return row | {"reason": str(refused)}
     return {
@@ -399,10 +399,10 @@ def list_tasks(settings: dict, branches: pd.DataFrame, bifurcations: pd.DataFram
         for number, row in enumerate(rows.to_dict("records"), start=1):
             tasks.append(Task("certified_bifurcations", (kind, number, row)))
     for acceleration in settings["chaos"]["acceleration"]:
-        found = [
+        orbits = [
             orbit for number, line in singles.items() for orbit in orbits_at(parameters, number, line, acceleration)
         ]
-        saddles = [orbit for orbit in found if abs(orbit.orbit.multipliers[0]) > 1.0]
+        saddles = [orbit for orbit in orbits if abs(orbit.orbit.multipliers[0]) > 1.0]
         tasks.append(Task("certified_chaos", (acceleration, saddles)))
     return tasks
 

@@ -53,23 +53,23 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
 
     def work(begin, end):
         for k in range(begin, end):
-            found = follow_attractor(
+            orbit_states = follow_attractor(
                 upwards[orders[k]], transient=settings["transient"], strobes=count, tolerance=tolerance
             )
-            swept[k] = [column[orders[k]] for column in found]
+            swept[k] = [column[orders[k]] for column in orbit_states]
 
     for_each_chunk(work, len(BRANCHES), threads=threads, chunk=1)
     points, status = (np.stack(columns) for columns in zip(*swept, strict=True))
     rows = len(BRANCHES) * len(amplitudes)
     last = start_at(np.tile(upwards, 2), points[:, :, -1].reshape(rows, 2), tolerance)
-    found = label_motions(last, settings, threads=threads, progress=progress)
+    labels = label_motions(last, settings, threads=threads, progress=progress)
     return {
         "branch": np.repeat(BRANCHES, len(amplitudes) * count),
         "acceleration": np.tile(np.repeat(amplitudes, count), 2),
         "cycle": np.tile(np.arange(count), rows),
         "delta": points[..., 0].ravel(),
         "v": points[..., 1].ravel(),
-        "state": np.repeat(found.state, count),
-        "period": np.repeat(found.period, count),
+        "state": np.repeat(labels.state, count),
+        "period": np.repeat(labels.period, count),
         "status": np.repeat(status.ravel(), count),
     }

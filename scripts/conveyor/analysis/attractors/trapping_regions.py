@@ -175,10 +175,10 @@ def find_trapping_region(
     """
     damping, unit = contact.constants(parameters, tolerance).damping, np.array(length_and_speed_units(parameters))
     centre = np.array([state[0], state[1] + damping * max(state[0], 0.0)])
-    periods, found = PERIODS, linearise(parameters, tolerance, centre, period)
-    if found is None:
+    periods, linear = PERIODS, linearise(parameters, tolerance, centre, period)
+    if linear is None:
         return None, 0
-    matrix = found[1] * unit / unit[:, None]
+    matrix = linear[1] * unit / unit[:, None]
     if spectral_radius(matrix) <= SLOW:
         norm = contracting_norm(matrix)
     else:
@@ -218,10 +218,10 @@ def find_attracting_orbits(
     """
     at_top, unit = parameters.copy(), np.array(length_and_speed_units(parameters))
     at_top[PSI0] = BEGIN_OF_CYCLE
-    seen, found, left = np.empty((0, 2)), NO_ATTRACTORS.orbits, most
+    seen, orbits, left = np.empty((0, 2)), NO_ATTRACTORS.orbits, most
 
     def add(state: np.ndarray, period: int, flight: float) -> None:
-        nonlocal seen, found, left
+        nonlocal seen, orbits, left
         if left <= 0 or period > LONGEST or (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
             return
         status, strobes, _ = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
@@ -230,24 +230,24 @@ def find_attracting_orbits(
             around, spent = find_trapping_region(at_top, tolerance, state, period, most=left)
             left -= spent
             if around is not None:
-                found = append_row(found, parameters, *around, period, flight)
+                orbits = append_row(orbits, parameters, *around, period, flight)
 
     for k in np.flatnonzero(sampled.outcomes == PERIODIC):
         add(sampled.states[k], int(sampled.periods[k]), sampled.flights[k])
     states = sampled.states[sampled.outcomes == NOT_CONVERGED]
     # Side by side, because most of them stay in a chaotic set.
     rows = np.repeat(parameters[None], len(states), axis=0)
-    early = sampling.follow(rows, states, min(2 * STAY, cycles), tolerance, AttractorTable(found, chaotic))
+    early = sampling.follow(rows, states, min(2 * STAY, cycles), tolerance, AttractorTable(orbits, chaotic))
     left -= int(early.followed.sum())
     for state in states[early.outcomes != IN_CHAOTIC_SET]:
         if left <= 0:
             break
-        late = sampling.follow(parameters[None], state[None], cycles, tolerance, AttractorTable(found, chaotic))
+        late = sampling.follow(parameters[None], state[None], cycles, tolerance, AttractorTable(orbits, chaotic))
         left -= int(late.followed[0])
         if late.outcomes[0] == NOT_CONVERGED:
             break
         constants = contact.constants(parameters, tolerance)
-        is_new = convergence.find_reached_orbit(constants, late.states[0], found, 0, len(found.periods)) < 0
+        is_new = convergence.find_reached_orbit(constants, late.states[0], orbits, 0, len(orbits.periods)) < 0
         if late.outcomes[0] == PERIODIC and is_new:
             add(late.states[0], int(late.periods[0]), late.flights[0])
-    return found
+    return orbits

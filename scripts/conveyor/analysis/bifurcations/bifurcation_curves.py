@@ -221,7 +221,7 @@ def follow_grazing_curve(
     The curve ends with "lost" where Newton's iteration finds no touch near the last one. The other parameters are those
     of `follow`. Points of codimension two are not searched for.
     """
-    found, ends, equations = [], [], CurveEquations(point, path)
+    path_points, ends, equations = [], [], CurveEquations(point, path)
     for direction, end in ((-1.0, reach[0]), (1.0, reach[1])):
         here, log_ratio, side, reason = point, 0.0, [], CurveEnd.LIMIT
         while abs(log_ratio) < abs(end):
@@ -235,9 +235,9 @@ def follow_grazing_curve(
             side.append((here, log_ratio))
             if not amplitude[0] <= here.groups.amplitude <= amplitude[1]:
                 break
-        found = [*side[::-1], (point, 0.0)] if direction < 0.0 else [*found, *side]
+        path_points = [*side[::-1], (point, 0.0)] if direction < 0.0 else [*path_points, *side]
         ends.append(reason)
-    points, log_ratios = [one for one, _ in found], np.array([log_ratio for _, log_ratio in found])
+    points, log_ratios = [one for one, _ in path_points], np.array([log_ratio for _, log_ratio in path_points])
     impacts = np.zeros(len(points), dtype=np.int64)
     return BifurcationCurve(points, log_ratios, np.full(len(points), np.nan), impacts, [], tuple(ends))
 
@@ -268,8 +268,8 @@ def _meetings(equations, unknowns, forms, rights, impacts, ends) -> Iterable[Cod
     for n in range(len(unknowns) - 1):
         begin, end = unknowns[n], unknowns[n + 1]
         if impacts[n] != impacts[n + 1]:
-            found = list(_grazings(equations, begin, end, "ok"))
-            yield from found or [CodimensionTwoPoint(GRAZING, equations.point(end), float(end[3]), "not located")]
+            grazings = list(_grazings(equations, begin, end, "ok"))
+            yield from grazings or [CodimensionTwoPoint(GRAZING, equations.point(end), float(end[3]), "not located")]
         if np.sign(forms[n]) * np.sign(forms[n + 1]) < 0.0:
             yield _degenerate(equations, begin, end, lambda one, along=rights[n]: normal_form(one, along)[0])
     if ends[1] == CurveEnd.STEP and len(unknowns) > 1:

@@ -67,10 +67,10 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
             return status, stretches, contact_times
         for k in range(2):
             tangent[k, 1] /= c.omega
-        found = stretches[n] if n >= 0 else discarded
-        stretching.orthonormalise(tangent, found)
-        if found[1] < found[0] + LOST:
-            found[1] = -c.damping * features[stroboscopic_map.CONTACT_TIME] - found[0]
+        logs = stretches[n] if n >= 0 else discarded
+        stretching.orthonormalise(tangent, logs)
+        if logs[1] < logs[0] + LOST:
+            logs[1] = -c.damping * features[stroboscopic_map.CONTACT_TIME] - logs[0]
             tangent[1, 0], tangent[1, 1] = -tangent[0, 1], tangent[0, 0]
         if n >= 0:
             contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
@@ -144,8 +144,8 @@ def lyapunov_spectrum(
 
     def work(begin, end):
         for i in range(begin, end):
-            found = stretches_of(parameters[i], states[i], tolerance, phases[i], transient, blocks * cycles)
-            codes[i], stretches[i], contact_times[i] = found
+            stretched = stretches_of(parameters[i], states[i], tolerance, phases[i], transient, blocks * cycles)
+            codes[i], stretches[i], contact_times[i] = stretched
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
     period = 1.0 / parameters[:, FREQUENCY]
@@ -155,7 +155,7 @@ def lyapunov_spectrum(
     values[codes != trajectory.OK] = np.nan
     # Where both exponents are equal, the first tangent vector may have grown a little less.
     order = np.argsort(-values, axis=1, kind="stable")
-    values, errors = (np.take_along_axis(found / period[:, None], order, axis=1) for found in (values, errors))
+    values, errors = (np.take_along_axis(numbers / period[:, None], order, axis=1) for numbers in (values, errors))
     contact_fraction = contact_times.mean(axis=1) / period
     columns = {"lambda_1": values[:, 0], "lambda_2": values[:, 1], "stderr": errors[:, 0]}
     columns |= {"contact_fraction": contact_fraction, "status": np.array(trajectory.STATUS, dtype=object)[codes]}
@@ -179,15 +179,15 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     states : float64, shape (n, 2), stroboscopic states at trajectory.BEGIN_OF_CYCLE
     tolerance, threads : as in `sweep`
     """
-    found = np.zeros(len(parameters), dtype=np.int64)
+    sign = np.zeros(len(parameters), dtype=np.int64)
     for cycles in LOOKS:
-        rows = np.flatnonzero(found < 1)
+        rows = np.flatnonzero(sign < 1)
         of_them = spectrum_from(parameters[rows], states[rows], cycles, tolerance=tolerance, threads=threads)
         # A failed motion has NaN here and keeps the sign 0. A sign that is not positive is checked again
         # after more cycles.
         different = np.abs(of_them.lambda_1) > SIGNIFICANT * of_them.stderr
-        found[rows] = np.where(different, np.sign(of_them.lambda_1), 0.0)
-    return found
+        sign[rows] = np.where(different, np.sign(of_them.lambda_1), 0.0)
+    return sign
 
 
 def find_period(strobes: np.ndarray, unit: np.ndarray) -> int:

@@ -53,16 +53,16 @@ def uncorrelated_window(fluctuations: np.ndarray) -> int:
 
     fluctuations : displacements in single cycles without their mean, shape (n, k)
     """
-    found, window = 0, DEFAULT_WINDOW
+    enough, window = 0, DEFAULT_WINDOW
     while fluctuations.shape[1] // window >= LEAST_WINDOWS:
         sums = sums_over(fluctuations, window)
         neighbours = sums[:, 1:] * sums[:, :-1]
         if abs(neighbours.mean()) > (DECAYED + 2.0 / np.sqrt(neighbours.size)) * (sums**2).mean():
-            found = 0
-        elif found == 0:
-            found = window
+            enough = 0
+        elif enough == 0:
+            enough = window
         window *= 2
-    return found if LONGER * found < window else 0
+    return enough if LONGER * enough < window else 0
 
 
 def random_walk(displacements: np.ndarray, period: float) -> RandomWalk:
