@@ -1,6 +1,6 @@
 """Settings of the stage accuracy: comparisons of methods, with units and ranges."""
 
-from typing import Annotated, Literal, NotRequired
+from typing import Annotated, NotRequired
 
 from pydantic import AfterValidator, Field
 from typing_extensions import TypedDict
@@ -83,18 +83,6 @@ class Ride(TypedDict):
     duration: Duration
 
 
-class HardCase(TypedDict):
-    label: Annotated[Line, Field(description="label in the figure")]
-    model: Model
-    duration: Duration
-
-
-INTEGRATORS = (
-    *("RK45", "DOP853", "Radau", "LSODA"),
-    *("CyRK DOP853", "CyRK Vern8", "CVODE Adams", "CVODE BDF", "heyoka"),
-)
-
-
 class Stability(TypedDict):
     methods: many(FixedStepMethod, "methods with a fixed step")
     paper_step: Step
@@ -104,21 +92,6 @@ class Stability(TypedDict):
     damping: span(MODEL_TYPES["damping"], "contact damping coefficients")
     impact_velocity: span(number("impact velocity", "m/s", gt=0, le=100), "impact velocities")
     conveyor: Annotated[Ride, AfterValidator(check_span), Field(description="the paper's conveyor without chaos")]
-    stick: mapping(
-        "a conveyor on which the part sticks",
-        {name: item for name, item in MODEL_TYPES.items() if name not in ("z0", "vz0")},
-        total=False,
-    )
-    chatter_steps: Steps
-    rivals: mapping(
-        "other integrators in the difficult cases",
-        {
-            "integrators": many(Literal[INTEGRATORS], "integrators with events and modes", least=0),
-            "tolerance": Tolerance,
-            "max_evaluations": MaxEvaluations,
-        },
-    )
-    hard: Annotated[dict[Name, HardCase], Field(description="difficult cases")]
 
 
 BUDGETED = ("sweeps", "signals", "spectra", "estimates", "critical", "impacts", "dimensions", "attractors", "lyapunov")

@@ -9,24 +9,22 @@ from scipy.optimize import brentq
 from scipy.special import beta
 
 from accuracy.closed_forms import compression, undamped_duration
-from conveyor import DEFAULT_TOLERANCE, Conveyor, Run, Start, conveyor_motion, parameter_table, progress_bar, simulate
-from conveyor.methods import fixed_step, peers
-from pipeline import fields, grid
+from conveyor import DEFAULT_TOLERANCE, Conveyor, Run, Start, parameter_table, progress_bar, simulate
+from conveyor.methods import fixed_step
+from pipeline import fields
 
 TABLES = {
     "stability": (
-        fields.text("panel", "stiffness, damping, impact velocity, conveyor; edge of one; chatter; or hard and a case"),
-        fields.text("method", "euler, semi_implicit_euler, rk4, event, or in hard cases another integrator"),
-        fields.number("x", "see panel", "time step in s, null for event; hard: number of events"),
-        fields.number("y", "see panel", "varied quantity in SI units; chatter: slip in m/s; hard: relative error"),
-        fields.text("outcome", "right, wrong state, energy grows or blow-up; or the failure of another integrator"),
+        fields.text("panel", "the varied quantity: stiffness, damping, impact velocity, or conveyor for the amplitude"),
+        fields.text("method", "euler, semi_implicit_euler, rk4, or event"),
+        fields.number("x", "s", "time step; null for event"),
+        fields.number("y", "see panel", "varied quantity in SI units"),
+        fields.text("outcome", "right, wrong state, energy grows or blow-up"),
         fields.number("theory", "s", "theoretical stability limit of the time step; null for none"),
     ),
 }
 
 RIGHT, WRONG, GROWS, BLOWS_UP = "right", "wrong state", "energy grows", "blow-up"
-THROUGH = "through the plate"
-SUNK = 1e-3  # m: a part this far below its right height has fallen through the plate
 # Varied quantities besides the step, and the spacing of their values.
 PANELS = {"stiffness": np.geomspace, "damping": np.geomspace, "impact velocity": np.geomspace, "conveyor": np.linspace}
 TRUTH = 1e-13  # tolerance of the solver as the reference
@@ -36,8 +34,6 @@ PRESSED = 0.5
 FOLDINGS = 8.0  # duration of a run at rest, in decay times of the contact
 RESTITUTION = 0.05  # largest error of a coefficient of restitution that counts as right
 VELOCITY = 0.05  # largest relative error of a mean velocity that counts as the right state
-FINE = 1e-6  # largest error of the solver in hard cases that counts as right
-COARSE = 1e-2  # largest error of other methods in hard cases that counts as right
 
 
 def characteristic(stiffness: float, damping: float, mass: float) -> tuple[complex, complex]:
@@ -198,22 +194,13 @@ def rest_experiment(panel: str, method: str, value: float, settings: dict) -> Ex
     return lambda step: outcome_of_impact(method, step, value, conveyor), theory
 
 
-def measure_limit(outcome: Callable[[float], str], theory: float) -> float:
-    """Largest step (s) without growth of energy, by bisection to one per cent."""
-    low, high = 0.3 * theory, 3.0 * theory
-    while high > 1.01 * low:
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if outcome(middle) in (RIGHT, WRONG) else (low, middle)
-    return low
-
-
 def panel_values(panel: str, settings: dict) -> np.ndarray:
     """The values of the varied quantity of a panel."""
     return PANELS[panel](*(settings[panel.replace(" ", "_")][name] for name in ("start", "stop", "num")))
 
 
 def region_rows(settings: dict, progress: str | None) -> list[dict]:
-    """Outcomes over the step and one other quantity, and measured limits where theory is exact."""
+    """Outcomes over the step and one other quantity."""
     steps = np.geomspace(**settings["step"])
     lines = []
     for panel in PANELS:
@@ -227,9 +214,6 @@ def region_rows(settings: dict, progress: str | None) -> list[dict]:
     rows = []
     for panel, method, value, outcome, theory in progress_bar(lines, label=progress, unit="lines"):
         rows += [row(panel, method, step, value, outcome(step), theory) for step in steps]
-        # Elsewhere, the theoretical limit is only an estimate.
-        if panel in ("stiffness", "damping") or (panel, method) == ("impact velocity", "euler"):
-            rows.append(row(f"edge: {panel}", method, measure_limit(outcome, theory), value, RIGHT, theory))
     return rows
 
 
@@ -251,63 +235,10 @@ def row(panel: str, method: str, x: float, y: float, outcome: str, theory: float
     return {"panel": panel, "method": method, "x": x, "y": y, "outcome": outcome, "theory": theory}
 
 
-def chatter_rows(settings: dict) -> list[dict]:
-    """Root mean square slip velocity (m/s) of a part that should stick, over the step (s)."""
-    conveyor = Conveyor(**settings["stick"])
-    rows = []
-    for step in settings["chatter_steps"]:
-        times = 0.1 + step * np.arange(2000)
-        for method in ("euler", "event"):
-            duration = whole_steps(times[-1] + step, step)
-            run = simulate(conveyor, Start("conveyor"), duration=duration, method=method, step=step)
-            slips = run.sample(times)["vx"] - conveyor_motion(conveyor, times)["vx"]
-            slip = float(np.sqrt(np.mean(slips**2)))
-            rows.append(row("chatter", method, step, slip, RIGHT if slip < 1e-12 else WRONG))
-    return rows
-
-
-def outcome_of_rival(run: peers.Summary, error: float, truth: Run) -> str:
-    """Outcome of another integrator in a hard case: its own status if it reports a failure."""
-    if run.status != "ok":
-        return run.status
-    if run.z < truth.z_end - SUNK:
-        return THROUGH
-    return RIGHT if error < COARSE else WRONG
-
-
-def hard_rows(settings: dict, step: float, rivals: dict) -> list[dict]:
-    """Relative errors of the height at the end in hard cases, by the solver, Euler and other integrators.
-
-    The reference is the solver at the tolerance TRUTH; in each case it has the same events as at the default tolerance.
-    """
-    rows = []
-    for case in settings.values():
-        panel, duration = f"hard: {case['label']}", case["duration"]
-        conveyor, start = grid.conveyor_and_start(case["model"])
-        truth = simulate(conveyor, start, duration=duration, tolerance=TRUTH)
-        own = simulate(conveyor, start, duration=duration)
-        scale = max(abs(truth.z_end), 1e-9)
-        error = abs(own.z_end - truth.z_end) / scale
-        fine = own.status == truth.status == "ok" and own.event_count == truth.event_count and error < FINE
-        rows.append(row(panel, "event", own.event_count, error, RIGHT if fine else WRONG))
-        euler = fixed_step.run(parameter_table(conveyor, start), whole_steps(duration, step), step)
-        error = abs(euler.z - truth.z_end) / scale
-        outcome = outcome_of_steps(euler, truth, 1.1, error < COARSE)
-        rows.append(row(panel, "euler", truth.event_count, error, outcome))
-        for name in rivals["integrators"]:
-            budget = rivals["tolerance"], rivals["max_evaluations"]
-            run = peers.run(parameter_table(conveyor, start), duration, name, "modes", *budget)
-            error = abs(run.z - truth.z_end) / scale
-            rows.append(row(panel, name, truth.event_count, error, outcome_of_rival(run, error, truth)))
-    return rows
-
-
 def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of stability."""
     rows = region_rows(settings, progress)
     for panel in PANELS:
         for value in panel_values(panel, settings):
             rows.append(row(panel, "event", math.nan, value, outcome_of_solver(panel, value, settings)))
-    rows += chatter_rows(settings)
-    rows += hard_rows(settings["hard"], settings["paper_step"], settings["rivals"])
     return fields.columns(rows, TABLES["stability"])

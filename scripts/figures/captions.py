@@ -200,21 +200,6 @@ def speed_accuracy(
     }
 
 
-def stability_details(*, stability: pd.DataFrame) -> dict[str, Any]:
-    """The hard cases in which other integrators fail, and missing integrators."""
-    rivals = stability.attrs["rivals"]["integrators"]
-    rows = stability[stability.panel.str.startswith("hard") & stability.method.isin(rivals)]
-    failed = rows[~rows.outcome.isin(["right", "not installed"])]
-    return {
-        "accuracy": VELOCITY,
-        "failures": [
-            {"case": panel.removeprefix("hard: "), "methods": methods.method, "outcome": outcome}
-            for (panel, outcome), methods in failed.groupby(["panel", "outcome"], sort=False)
-        ],
-        "missing": list(rows[rows.outcome == "not installed"].method.unique()),
-    }
-
-
 def stability_limits(*, stability: pd.DataFrame) -> dict[str, Any]:
     own = stability[(stability.method == "event") & stability.panel.isin(PANELS)]
     return {"accuracy": VELOCITY, "own_right": own.outcome == "right"}
@@ -334,7 +319,6 @@ NUMBERS: dict[str, Callable[..., dict[str, Any]]] = {
     "transit": transit,
     "speed_accuracy": speed_accuracy,
     "stability": stability_limits,
-    "stability_details": stability_details,
 }
 
 

@@ -4,7 +4,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from conveyor import Conveyor
 from conveyor.parameters import FIXED_STEP_METHODS
 from made import RESULTS, ROOT
 
@@ -63,14 +62,6 @@ def test_failures_are_found_whatever_the_methods_report(result):
     assert (through.state_error > 1.0).all()
 
 
-def test_edges_of_stability_agree_with_theory(result):
-    table = result("stability")
-    for panel in ("stiffness", "damping", "impact velocity"):
-        edges = table[table.panel == f"edge: {panel}"]
-        assert len(edges)
-        assert np.abs(edges.x / edges.theory - 1.0).max() < 0.2, panel
-
-
 def test_fixed_steps_fail_beyond_the_limit_and_hold_within(result):
     """Beyond the limit, impacts gain energy, or have any speed after a contact of a single step."""
     table = result("stability")
@@ -90,16 +81,6 @@ def test_fixed_steps_are_right_far_within_the_limit(result):
         rows = table[(table.panel == panel) & (table.x < table.theory / 100.0)]
         assert len(rows)
         assert (rows.outcome == "right").all(), panel
-
-
-def test_solver_holds_in_hard_cases_and_euler_does_not(result):
-    table = result("stability")
-    hard = table[table.panel.str.startswith("hard")]
-    own, euler = (hard[hard.method == method] for method in ("event", "euler"))
-    assert len(own) == len(euler) == len(table.attrs["hard"])
-    assert (own.outcome == "right").all()
-    assert (euler.y.to_numpy() > 1e3 * own.y.to_numpy()).all()
-    assert (euler.outcome == "energy grows").any()
 
 
 def test_the_paper_s_exponent_of_an_orbit_has_the_wrong_sign(result):
@@ -152,19 +133,6 @@ def test_the_paper_s_boxes_take_a_transient_for_the_orbit(result):
     settled = table[(table.panel == "samples") & (table.case == "second") & (table.estimator == "boxes")]
     last = settled.iloc[-1]
     assert abs(last.value - 1.0) < last.error
-
-
-def test_euler_chatters_where_the_solver_sticks(result):
-    table = result("stability")
-    rows = table[table.panel == "chatter"]
-    slip, own = (rows[rows.method == method] for method in ("euler", "event"))
-    assert len(slip) == len(own) > 0
-    # A step that overshoots zero slip does so by friction and the plate, at most μ g + a_x in a step.
-    conveyor = Conveyor(**table.attrs["stick"])
-    most = (conveyor.friction * conveyor.gravity + conveyor.acceleration) * slip.x
-    assert ((slip.y > 0.0) & (slip.y < most)).all()
-    assert np.polyfit(np.log(slip.x), np.log(slip.y), 1)[0] == pytest.approx(1.0, abs=0.1)  # proportional to the step
-    assert (own.y < 1e-12).all()
 
 
 def test_choices_look_like_the_full_model(result):

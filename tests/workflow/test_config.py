@@ -42,7 +42,9 @@ WRONG = [
         {"theory": {"speed": [1.0]}},
         "theory is no setting any more; remove it (its value is a constant in scripts/accuracy",
     ),
-    ({"scaling": {"points": [1000]}}, "scaling is no section any more, because its tables and figures are gone"),
+    ({"stability": {"chatter_steps": [1e-6]}}, "stability.chatter_steps is no setting any more"),
+    ({"companion": {"cycles": 500}}, "companion.cycles is no setting any more, because what used it is gone"),
+    ({"scaling": {"points": [1000]}}, "scaling is no setting any more, because what used it is gone"),
     ({"model": {"mass": -0.1}}, "model.mass = -0.1 should be at least 1e-12 (kg)"),
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),
@@ -246,7 +248,6 @@ WRONG = [
         for key, overlay in {
             "orbits.model": {"orbits": {"model": {"static_friction": 0.1}}},
             "precision.scenes.riding": {"precision": {"scenes": {"riding": {"static_friction": 0.1}}}},
-            "stability.hard.stiff.model": {"stability": {"hard": {"stiff": {"model": {"static_friction": 0.1}}}}},
             "benchmark.cases.A.model": {"benchmark": {"cases": {"A": {"model": {"static_friction": 0.1}}}}},
         }.items()
     ),

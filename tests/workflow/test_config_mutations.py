@@ -90,7 +90,7 @@ def test_null_is_reported_unless_it_means_no_number(section):
 
 def is_of_names(path: tuple) -> bool:
     """Whether a mapping may have any name as a key."""
-    places = {("figures",), ("claims",), ("benchmark", "cases"), ("precision", "scenes"), ("stability", "hard")}
+    places = {("figures",), ("claims",), ("benchmark", "cases"), ("precision", "scenes")}
     places |= {("published_scenes", "further"), ("companion", "presets")}
     entries = {"sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts"}
     return path in places or (len(path) == 1 and path[0] in entries)

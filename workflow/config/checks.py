@@ -92,7 +92,6 @@ def friction(config: dict, defaults: dict) -> Iterator[str]:
     for key, runs in (
         ("benchmark.cases", config["benchmark"]["cases"]),
         ("published_scenes.further", config["published_scenes"]["further"]),
-        ("stability.hard", config["stability"]["hard"]),
     ):
         changed |= {f"{key}.{name}.model": run["model"] for name, run in runs.items()}
     for key, own in changed.items():

@@ -70,8 +70,11 @@ CONSTANTS = {
         "orbits/certified",
     ),
 }
-# Sections of earlier versions whose tables no longer exist.
-GONE = ("precision_estimates", "scaling")
+# Sections and settings of earlier versions that nothing uses any more.
+GONE = (
+    *("precision_estimates", "scaling", "companion.tolerance", "companion.cycles"),
+    *(f"stability.{key}" for key in ("hard", "rivals", "stick", "chatter_steps")),
+)
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
@@ -117,7 +120,7 @@ def explain(error: dict) -> str:
     if kind == "missing":
         return f"{key} is missing"
     if kind == "extra_forbidden" and key in GONE:
-        return f"{key} is no section any more, because its tables and figures are gone; remove it"
+        return f"{key} is no setting any more, because what used it is gone; remove it"
     if kind == "extra_forbidden" and key in CONSTANTS:
         return f"{key} is no setting any more; remove it (its value is a constant in scripts/{CONSTANTS[key]}.py)"
     if kind == "extra_forbidden":

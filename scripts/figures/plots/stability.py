@@ -9,8 +9,16 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
 from figures import style
-from figures.plots.stability_details import AXES, OUTCOMES, PAPER
 
+OUTCOMES = {"right": "#BFD9EA", "wrong state": "#F3D9A0", "energy grows": "#D55E00", "blow-up": "#444444"}
+AXES = {
+    "stiffness": "stiffness in N/m",
+    "damping": "damping in N s/m",
+    "impact velocity": "impact velocity in m/s",
+    "conveyor": "amplitude $\\hat{a}$ in m/s²",
+}
+PAPER = {"marker": "*", "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.6, "markersize": 9.0}
+THEORY = {"color": "black", "linewidth": 1.0, "linestyle": ":"}
 TITLES = {
     "stiffness": "linear contact",
     "damping": "linear contact",
@@ -40,6 +48,8 @@ def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str], p
         width = 2.0 if method == "euler" else 1.0
         edge = withStroke(linewidth=width + 1.0, foreground="white")
         axes.plot(limits.index, limits, color=style.METHODS[method][0], linewidth=width, path_effects=[edge])
+    theory = euler.groupby("y").theory.first()
+    axes.plot(theory.index, theory, **THEORY)
     own = rows[rows.method == "event"].sort_values("y")
     top = OWN_ROW * euler.x.max()
     right = own.y.where(own.outcome == "right")
@@ -62,9 +72,10 @@ def legend_handles(methods: list[str]) -> list[Patch | Line2D]:
         colour, name = style.METHODS[method]
         width = 2.0 if method == "euler" else 1.0
         lines.append(Line2D([], [], color=colour, linewidth=width, label=f"limit of {name}"))
+    theory = Line2D([], [], **THEORY, label="limit of explicit Euler, theory")
     own = Line2D([], [], color=style.CONVERGED, linewidth=4.0, label="this solver: right state, no step limit")
     step = Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (4, 2)), label="paper's time step")
-    return [*areas, *lines, own, step]
+    return [*areas, *lines, theory, own, step]
 
 
 def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
@@ -74,7 +85,7 @@ def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
     methods, paper_step = stability.attrs["methods"], stability.attrs["paper_step"]
     for axes, panel in zip(panels.flat, AXES, strict=True):
         draw_panel(axes, stability[stability.panel == panel], panel, methods, paper_step)
-    panels[1, 1].plot(acceleration, paper_step, **PAPER | {"markersize": 9.0})
+    panels[1, 1].plot(acceleration, paper_step, **PAPER)
     for axes in panels[:, 0]:
         axes.set_ylabel("time step in s")
     figure.legend(handles=legend_handles(methods), loc="outside upper center", ncols=3)
