@@ -7,7 +7,9 @@ import pandas as pd
 
 from claims.finding import format_interval
 from identification import findings
+from identification.edges import contacts_of
 from identification.numbers import PARAMETERS
+from identification.posterior import CONFIDENCE, EVIDENCE
 from pipeline.importance_sampling import covariance
 from pipeline.templates import render
 
@@ -37,10 +39,12 @@ def make(
     misfits = numbers.pivot(index="number", columns="set", values="misfit")
     shown = numbers[numbers["set"] != "interpolated"]
     left_out = fits[fits.evidence == "end_left_out"].set_index("tension")
-    fitted = [name for name in paper if name not in settings["evidence"]["end_left_out"]["without"]]
+    fitted = [name for name in paper if name not in EVIDENCE["end_left_out"]["without"]]
     values = {
         "settings": settings,
-        "coarse": findings.is_coarse(settings),
+        "coarse": settings["effort"] < findings.ENOUGH,
+        "confidence": 100.0 * CONFIDENCE,
+        "contacts": contacts_of(settings["effort"]) ** 2,
         "format_interval": format_interval,
         "parameters": list(PARAMETERS),
         "numbers": {name: rows.to_dict("records") for name, rows in shown.groupby("number", sort=False)},

@@ -22,6 +22,7 @@ from figures.plots.speed_accuracy import method_name
 from figures.plots.throw import proved_fold
 from figures.style import STATE_COLOURS
 from identification import findings
+from identification.edges import contacts_of
 from operating import drive_page
 from operating.chart import spreads_of, summarize_shares
 from operating.regimes import CHAOS, NOT_ALL_SETTLED, SEVERAL, SLIDES_AWAY, is_steep
@@ -261,8 +262,8 @@ def track(*, track: pd.DataFrame) -> dict[str, Any]:
 def identification(*, frictions: pd.DataFrame) -> dict[str, Any]:
     settings = frictions.attrs
     return {
-        "settings": settings,
-        "coarse": findings.is_coarse(settings),
+        "contacts": contacts_of(settings["effort"]) ** 2,
+        "coarse": settings["effort"] < findings.ENOUGH,
         "accepted": findings.accepted_frictions(frictions, settings["numbers"]),
     }
 

@@ -28,10 +28,19 @@ TABLES = {
 # Tension modes with different vertical motions, and the vertical motion of each mode.
 VERTICAL = ("allow", "clip")
 VERTICAL_OF = {"allow": "allow", "frictionless": "allow", "clip": "clip"}
+# Numbers of losses and of groups in equal ratios within their bounds, by an effort of 1; a cubic spline needs four.
+CONTACTS, LEAST_CONTACTS = 9, 4
+# Initial heights (m): closer where the edge is steep.
+HEIGHTS = (
+    *(0.0, 1e-5, 2e-5, 3.5e-5, 5e-5, 7e-5, 1e-4, 1.3e-4),
+    *(1.6e-4, 2e-4, 2.5e-4, 3e-4, 3.5e-4, 4e-4, 4.5e-4, 5e-4),
+)
+SCAN = np.linspace(1.0, 14.0, 23)  # vertical amplitudes (m/s²), from below: 5 to 67 m/s² at 12°
+# Distances above an edge (m/s²) at which the first state may return; tongues are narrower.
+FURTHER = 0.02 * np.arange(1.0, 11.0)
+RESOLUTION = 2e-4  # m/s², of an edge: a thousandth of what a reader can see
 # Excitation cycles after which an unsettled motion is not in the first state, which settles within about 50.
 CYCLES = 1000
-# Amplitudes above an edge at which the first state may return.
-FURTHER = 10
 # Of the contact steps (see figure scene_budget).
 TOLERANCE = 1e-6
 
@@ -91,14 +100,20 @@ def find_edges(
     return middle
 
 
+def contacts_of(effort: float) -> int:
+    """Number of losses, and of groups; an effort multiplies the number of contacts."""
+    return max(LEAST_CONTACTS, round(CONTACTS * effort**0.5))
+
+
 def conveyors(settings: dict) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """The columns of the table before the search, shape (n,), and the parameters of its rows, shape (n,).
 
     The plate moves vertically, so that the amplitude is the vertical amplitude.
     """
     model = settings["model"]
-    axes = {name: np.geomspace(*settings["bounds"][name], number) for name, number in settings["contacts"].items()}
-    axes |= {"tension": np.array(VERTICAL), "z0": np.array(settings["heights"], dtype=np.float64)}
+    count = contacts_of(settings["effort"])
+    axes = {name: np.geomspace(*settings["bounds"][name], count) for name in ("loss", "group")}
+    axes |= {"tension": np.array(VERTICAL), "z0": np.array(HEIGHTS)}
     columns = dict(zip(axes, map(np.ravel, np.meshgrid(*axes.values(), indexing="ij")), strict=True))
     row = grid.row_of(model | {"angle": 0.5 * np.pi})
     columns["stiffness"], columns["damping"] = contact_of_groups(columns["group"], columns["loss"], row)
@@ -112,16 +127,9 @@ def converged_states(threads: int) -> Decide:
     return lambda rows: classify(rows, cycles=CYCLES, tolerance=TOLERANCE, threads=threads).state
 
 
-def search_edges(parameters: np.ndarray, settings: dict, decide: Decide, scan: np.ndarray | None = None) -> np.ndarray:
-    """The edges by `find_edges` with the settings of the config, in their scan or in another one."""
-    search = settings["edges"]
-    span = search["vertical_acceleration"]
-    scan = np.linspace(span["start"], span["stop"], span["num"]) if scan is None else scan
-    further = search["further"] / FURTHER * np.arange(1.0, FURTHER + 1.0)
-    return find_edges(parameters, scan, further, search["resolution"], decide)
-
-
 def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     """The columns of the table of edges for the settings of the rule."""
     columns, parameters = conveyors(settings)
-    return columns | {"vertical_acceleration": search_edges(parameters, settings, converged_states(threads))}
+    return columns | {
+        "vertical_acceleration": find_edges(parameters, SCAN, FURTHER, RESOLUTION, converged_states(threads))
+    }

@@ -9,12 +9,7 @@ VELOCITIES = {
     "first_high": "C05.velocity_at_upper_end",
     "fall": "C06.fall",
 }
-ENOUGH_CONTACTS = 49  # a table of edges with fewer contacts is coarse
-
-
-def is_coarse(settings: dict) -> bool:
-    """Whether the settings are too coarse for conclusions about the parameters, as in a reduced config."""
-    return settings["contacts"]["loss"] * settings["contacts"]["group"] < ENOUGH_CONTACTS
+ENOUGH = 0.6  # effort from which there are enough contacts for conclusions about the parameters
 
 
 def misfit(values: np.ndarray, number: dict) -> np.ndarray:

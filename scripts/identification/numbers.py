@@ -5,7 +5,7 @@ for all angles and frictions. Each conveyor needs only four trajectories: both s
 interval in which the paper states their velocities.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -27,6 +27,7 @@ from conveyor import (
 )
 from conveyor.elementary import exp, log, sin
 from identification import edges as edge_search
+from identification.edges import HEIGHTS
 from motion.critical import find_states
 from pipeline import grid
 from pipeline.rule_log import JobError
@@ -39,6 +40,9 @@ CONVERGED, EULER = "converged", "euler"
 MM, CM = 1e3, 1e2
 FINE = 1001  # heights at which the curve through the edges is evaluated
 DURATION, TOLERANCE = 1.0, 1e-6  # of the four trajectories (s), and of their contact steps (see figure scene_budget)
+# Distance (m/s²) from the ends of the interval of two states at which velocities are computed: one step of
+# sweeps.amplitudes.
+INSIDE = 0.25
 # Scan for the edges of the paper's method: distances from the converged edges, m/s².
 AROUND = np.array([-0.6, -0.3, 0.0, 0.3, 0.6])
 
@@ -80,7 +84,7 @@ def interpolate_edges(table: pd.DataFrame) -> dict[str, RegularGridInterpolator]
         row = table[table.vertical_acceleration.isna()].iloc[0]
         raise JobError(
             f"no edge was found at the loss {row.loss:.3g}, the group {row.group:.3g} and z0 = {row.z0:g} m; narrow "
-            "identification.bounds, or widen identification.edges.vertical_acceleration"
+            "identification.bounds, or widen SCAN in scripts/identification/edges.py"
         )
     table = table.sort_values(["loss", "group", "z0"])
     axes = [table[name].unique() for name in ("loss", "group", "z0")]
@@ -176,18 +180,18 @@ def measure(
     Parameters
     ----------
     parameters : table, shape (n,); their acceleration and initial condition are not used
-    edges : vertical amplitudes at the edges of the heights of the settings, m/s², shape (n, h)
+    edges : vertical amplitudes at the edges of HEIGHTS, m/s², shape (n, h)
     settings : of the rule
     follow : function from parameter vectors to mean velocities (m/s); None for the changes of state only
     """
-    measured, inside = settings["measured"], settings["inside"]
-    fine = np.linspace(settings["heights"][0], settings["heights"][-1], FINE)
-    splines = CubicSpline(settings["heights"], edges, axis=1)
+    measured = settings["measured"]
+    fine = np.linspace(HEIGHTS[0], HEIGHTS[-1], FINE)
+    splines = CubicSpline(HEIGHTS, edges, axis=1)
     found = Curve(fine, splines(fine) / sin(parameters["angle"])[:, None])
-    changes = changes_of_state(found, measured, inside)
+    changes = changes_of_state(found, measured, INSIDE)
     if follow is None:
         return changes
-    rows = parameters_of_both_states(parameters, found, measured["interval"], inside)
+    rows = parameters_of_both_states(parameters, found, measured["interval"], INSIDE)
     first, second = np.moveaxis(CM * follow(rows.ravel()).reshape(rows.shape), 1, 0)
     return changes | {
         "C05.velocity_at_lower_end": first[:, 0],
@@ -208,22 +212,25 @@ def measure_by_table(
     return measure(parameters_at(x, tension, settings["model"]), edges, settings, follow)
 
 
-def edges_directly(x: np.ndarray, method: str, settings: dict, threads: int) -> np.ndarray:
+def edges_directly(
+    x: np.ndarray, method: str, settings: dict, threads: int, heights: Sequence[float] = HEIGHTS
+) -> np.ndarray:
     """Vertical edges (m/s²), shape (1, h), of the printed contact treatment at searched parameters, shape (1, 4).
 
     The paper's method runs for its duration, and the converged solution continues from there, as in the claims.
     """
-    model, heights, euler = settings["model"], settings["heights"], settings["euler"]
+    model, euler = settings["model"], settings["euler"]
     rows = np.repeat(parameters_at(x, model["tension"], model), len(heights))
     rows["angle"], rows["z0"] = 0.5 * np.pi, heights
-    converged = edge_search.search_edges(rows, settings, edge_search.converged_states(threads))
+    search = (edge_search.FURTHER, edge_search.RESOLUTION)
+    converged = edge_search.find_edges(rows, edge_search.SCAN, *search, edge_search.converged_states(threads))
     if method == CONVERGED:
         return converged[None]
 
     def states(selected: np.ndarray) -> np.ndarray:
         return find_states(selected, euler, NO_ATTRACTORS, None, threads)
 
-    return edge_search.search_edges(rows, settings, states, converged + AROUND[:, None])[None]
+    return edge_search.find_edges(rows, converged + AROUND[:, None], *search, states)[None]
 
 
 def measure_directly(x: np.ndarray, method: str, settings: dict, threads: int) -> dict[str, np.ndarray]:

@@ -20,13 +20,13 @@ from scipy.stats import chi2
 from conveyor.elementary import exp, log
 from identification import numbers as claims
 from identification.edges import VERTICAL
-from identification.findings import VELOCITIES, misfit
+from identification.findings import DOWN_ALONE, VELOCITIES, misfit
 from identification.numbers import CONVERGED, EULER, PARAMETERS, SEARCHED, searched, values_of
 from pipeline import fields
 from pipeline.credible_intervals import interval, open_ends, quantiles
 from pipeline.importance_sampling import EXACT, effective_number, log_sum, monte_carlo_error, normalize, sample
 
-EVIDENCE = fields.text("evidence", "set of the paper's numbers: see identification.evidence of the config")
+SET = fields.text("evidence", "set of the paper's numbers: all, end_left_out or paper_method")
 VALUES = tuple(fields.number(name, unit, "parameter") for name, unit in PARAMETERS.items())
 TOTAL = fields.number("total", "1", "sum of squared misfits, each in half an accepted interval")
 SETS = "a set of evidence at its lowest total; at the printed parameters: euler, converged, or interpolated (edges)"
@@ -39,7 +39,7 @@ TABLES = {
         fields.number("misfit", "1", "distance from the middle of the accepted interval over half its width"),
     ),
     "fits": (
-        EVIDENCE,
+        SET,
         TENSION,
         *VALUES,
         TOTAL,
@@ -51,7 +51,7 @@ TABLES = {
         fields.number("size", "1", "effective number of points"),
     ),
     "intervals": (
-        EVIDENCE,
+        SET,
         fields.text("parameter", "name"),
         fields.number("best", "see parameter", "median of the posterior; null for too few effective points"),
         fields.number("best_error", "see parameter", "standard error of the best value from search to search"),
@@ -64,7 +64,7 @@ TABLES = {
         fields.number("covered", "1", "share of the searched range that the interval covers, on a logarithmic scale"),
     ),
     "samples": (
-        EVIDENCE,
+        SET,
         TENSION,
         *VALUES,
         TOTAL,
@@ -78,6 +78,19 @@ TABLES = {
         fields.number("fall", "cm/s", "decrease of the second state's velocity from the lower to the upper end"),
     ),
 }
+# Sets of evidence: numbers that a set leaves out, and whether the difference between both methods at the printed
+# parameters is added to the converged numbers. C01 and the upper end of C02 are the same quantity of the model, for
+# which the paper gives two numbers. A, B and C of C09 are in no set, because they lie in a valley (figure fit_valley).
+EVIDENCE = {
+    "all": {"without": (), "shifted": False},
+    "end_left_out": {"without": (DOWN_ALONE,), "shifted": False},
+    "paper_method": {"without": (DOWN_ALONE,), "shifted": True},
+}
+# For each set of evidence and tension mode, by an effort of 1: contacts and angles in each round, rounds after the
+# first one, and conveyors whose velocities are computed.
+POINTS, ROUNDS, FOLLOWED = 4000, 5, 2000
+SEED = 1
+CONFIDENCE = 0.95  # of the intervals
 ENOUGH = 100.0  # effective points for an interval
 SEARCHES = 4  # whose differences give the Monte Carlo errors
 FRICTIONS = 65  # values of friction in the table `frictions`
@@ -95,7 +108,9 @@ def number_rows(name: str, found: dict[str, np.ndarray], numbers: dict[str, dict
     return pd.DataFrame({"set": name, "number": list(values), "value": list(values.values()), "misfit": misfits})
 
 
-def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, settings: dict) -> tuple[pd.DataFrame, ...]:
+def infer(
+    evidence: dict, shifts: dict[str, float], quantities: Quantities, settings: dict, seed: int = SEED
+) -> tuple[pd.DataFrame, ...]:
     """Samples and fits of one set of evidence.
 
     Changes of state do not depend on friction and need no trajectory. They give a posterior of contact and angle, from
@@ -106,7 +121,7 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
     shifts : by CLAIM.QUANTITY, added to the quantities before they are compared
     quantities : function from searched parameters, shape (n, 4), a tension mode, and whether velocities are wanted
     """
-    model, options, bounds = settings["model"], settings["search"], bounds_of(settings)
+    model, bounds = settings["model"], bounds_of(settings)
     numbers = {name: one for name, one in settings["numbers"].items() if name not in evidence["without"]}
 
     def total(found: dict[str, np.ndarray]) -> np.ndarray:
@@ -117,24 +132,22 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
         totals = total(quantities(np.column_stack([np.full(len(y), bounds[0, 0]), y]), tension, False))
         return -0.5 * totals[None, :, None]
 
-    points = options["points"] // SEARCHES
-    search = {"first": points, "points": points, "rounds": options["rounds"], "enough": math.inf, "widths": EXACT}
+    points, followed = (round(settings["effort"] * count) // SEARCHES for count in (POINTS, FOLLOWED))
+    search = {"first": points, "points": points, "rounds": ROUNDS, "enough": math.inf, "widths": EXACT}
     found = {
-        (tension, number): sample(
-            partial(of_states, tension=tension), bounds[:, 1:], **search, seed=[options["seed"], number]
-        )
+        (tension, number): sample(partial(of_states, tension=tension), bounds[:, 1:], **search, seed=[seed, number])
         for tension in VERTICAL
         for number in range(SEARCHES)
     }
     least = min(-2.0 * one.log_density.max() for one in found.values())
     scale = max(least / (len(numbers) - len(SEARCHED)), 1.0)
-    random = np.random.default_rng(options["seed"])
+    random = np.random.default_rng(seed)
     samples, fits = [], []
     for (tension, number), states in found.items():
         # All errors are scaled up: the density is raised to the power 1/scale. Some weights have underflowed to zero.
         kept = np.flatnonzero(states.weights)
         logs = log(states.weights[kept]) + states.log_density[kept] * (1.0 / scale - 1.0)
-        chosen = random.choice(kept, options["followed"] // SEARCHES, p=normalize(logs)[0])
+        chosen = random.choice(kept, followed, p=normalize(logs)[0])
         x = np.column_stack([random.uniform(*bounds[:, 0], len(chosen)), states.points[chosen]])
         totals = total(quantities(x, tension, True))
         velocities = -0.5 * totals - states.log_density[chosen]
@@ -159,7 +172,7 @@ def infer(evidence: dict, shifts: dict[str, float], quantities: Quantities, sett
     return table, pd.DataFrame(fits).assign(
         numbers=len(numbers),
         scale=scale,
-        region=scale * chi2.ppf(options["confidence"], len(SEARCHED)),
+        region=scale * chi2.ppf(CONFIDENCE, len(SEARCHED)),
         share=by_tension.sum().to_numpy(),
         size=by_tension.agg(lambda weights: effective_number(weights / weights.sum())).to_numpy(),
     )
@@ -175,14 +188,14 @@ def interval_rows(samples: pd.DataFrame, settings: dict) -> pd.DataFrame:
 
     The Monte Carlo errors come from the differences between the searches. Too few points give null.
     """
-    searched_ends, confidence = values_of(bounds_of(settings), settings["model"]), settings["search"]["confidence"]
+    searched_ends = values_of(bounds_of(settings), settings["model"])
     weights, rows = samples.weight.to_numpy() / samples.weight.sum(), []
     is_enough = effective_number(weights) >= ENOUGH
     for name in PARAMETERS:
         logs, bounds = log(samples[name].to_numpy()), log(searched_ends[name])
 
         def summary(shares: np.ndarray, logs: np.ndarray = logs, bounds: np.ndarray = bounds) -> np.ndarray:
-            return np.clip([*quantiles(logs, shares, [0.5]), *interval(logs, shares, confidence)], *bounds)
+            return np.clip([*quantiles(logs, shares, [0.5]), *interval(logs, shares, CONFIDENCE)], *bounds)
 
         values = errors = np.full(3, math.nan)
         if is_enough:
@@ -217,7 +230,7 @@ def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, 
     at_printed["interpolated"] = quantities(printed, model["tension"])
     rows = [number_rows(name, found, numbers) for name, found in at_printed.items()]
     tables: dict[str, list[pd.DataFrame]] = {"fits": [], "intervals": [], "samples": []}
-    for name, evidence in settings["evidence"].items():
+    for name, evidence in EVIDENCE.items():
         samples, fits = infer(evidence, shifts if evidence["shifted"] else {}, quantities, settings)
         best = fits.loc[fits.total.idxmin()]
         at_best = quantities(searched(model | best[list(PARAMETERS)].to_dict()), best.tension)

@@ -1,4 +1,29 @@
-"""Parts of the config that the tables of the identification need; imported by the Snakefile: no slow imports."""
+"""Settings of the stage identification, with units and ranges, and what its tables need of other sections."""
+
+from typing import Annotated
+
+from pydantic import Field
+from typing_extensions import TypedDict
+
+from ..conveyor import DESCRIPTIONS
+from ..pipeline.settings import interval, number
+
+
+class Searched(TypedDict):
+    friction: interval(number("friction", "1", gt=0, le=10), DESCRIPTIONS["friction"])
+    loss: interval(number("loss", "1", gt=0, le=2), "group L of the contact: damping × contact time / mass")
+    group: interval(number("group", "1", gt=0, le=1e12), "group K of the contact: dimensionless stiffness")
+    angle: interval(number("angle", "rad", gt=0, le=1.5707), DESCRIPTIONS["angle"])
+
+
+class Identification(TypedDict):
+    bounds: Annotated[Searched, Field(description="search interval of each parameter")]
+    effort: number("factor of the numbers of conveyors; below 1: coarse tables", ge=0.1, le=100)
+
+
+SECTIONS = {
+    "identification": Annotated[Identification, Field(description="parameters that the paper's numbers imply")],
+}
 
 # Quantities of claims that scripts/identification/numbers.py computes for any conveyor, and that the search fits.
 NUMBERS_OF_CLAIMS = (
@@ -15,7 +40,6 @@ NUMBERS_OF_CLAIMS = (
     "C10.lower_end",
     "C10.upper_end",
 )
-EDGES = ("bounds", "contacts", "heights", "edges")
 POSTERIOR = ("numbers", "fits", "intervals", "samples", "frictions")
 
 
@@ -23,7 +47,7 @@ def identification_settings(config: dict, table: str, model: dict) -> dict:
     """The parts of a config that a table of the section `identification` needs, with the model."""
     own = config["identification"]
     if table == "edges":
-        return {**{name: own[name] for name in EDGES}, "model": model}
+        return {**own, "model": model}
     method = {name: config["solver"][name] for name in ("duration", "step", "settling", "mean_settling")}
     computed = {"numbers": paper_numbers(config), "measured": measured_quantities(config)}
     return {**own, **computed, "euler": {**method, "method": "euler"}, "model": model}
@@ -32,11 +56,11 @@ def identification_settings(config: dict, table: str, model: dict) -> dict:
 def paper_numbers(config: dict) -> dict[str, dict]:
     """The paper's numbers CLAIM.QUANTITY, each with the ends of its accepted interval."""
     found = {}
-    for number in NUMBERS_OF_CLAIMS:
-        claim, name = number.split(".")
+    for key in NUMBERS_OF_CLAIMS:
+        claim, name = key.split(".")
         quantity = config["claims"][claim]["quantities"][name]
         low, high = quantity["accepted"]
-        found[number] = {"is": quantity["is"], "paper": quantity["paper"], "low": low, "high": high}
+        found[key] = {"is": quantity["is"], "paper": quantity["paper"], "low": low, "high": high}
     return found
 
 

@@ -48,8 +48,3 @@ def test_accepted_frictions(fall, of_fall, of_all):
     assert accepted["first_high"] == pytest.approx((0.19, 0.21))
     assert accepted["fall"] == pytest.approx(of_fall)
     assert accepted["all"] == (of_all and pytest.approx(of_all))
-
-
-def test_a_table_of_few_contacts_is_coarse():
-    assert findings.is_coarse({"contacts": {"loss": 4, "group": 4}})
-    assert not findings.is_coarse({"contacts": {"loss": 9, "group": 9}})

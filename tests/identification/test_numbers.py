@@ -12,10 +12,10 @@ from conveyor.analysis.attractors.labels import classify
 from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height, mean_squared_error
 from identification import edges, numbers
 from identification.numbers import parameters_at, searched, values_of
-from identification.settings import NUMBERS_OF_CLAIMS
 from motion import critical
 from pipeline import grid
 from pipeline.rule_log import JobError
+from scripts.identification.settings import NUMBERS_OF_CLAIMS
 
 CONFIG = read_config()
 MODEL, OWN = CONFIG["model"], CONFIG["identification"]
@@ -36,9 +36,7 @@ NEAR = {
     "euler": EULER,
     "measured": MEASURED,
     "bounds": OWN["bounds"] | {"loss": [0.24, 0.253], "group": [65.0, 79.0]},
-    "contacts": {"loss": 4, "group": 4},
-    "heights": [0.0, 2e-5, 5e-5, 7e-5, 1e-4, 1.3e-4, 1.6e-4, 2e-4, 2.5e-4, 3e-4, 3.5e-4, 4e-4, 4.5e-4, 5e-4],
-    "edges": OWN["edges"] | {"vertical_acceleration": {"start": 5.0, "stop": 11.0, "num": 5}},
+    "effort": 0.1,  # four losses and four groups
 }
 
 
@@ -51,8 +49,8 @@ def direct() -> dict[str, float]:
 
 def test_edges_by_the_paper_method_lie_a_little_lower():
     """Its critical heights are 1 to 4 % lower (docs/claims.md), so its edges are lower, too."""
-    few = NEAR | {"heights": [5e-5, 1.3e-4], "edges": NEAR["edges"] | {"resolution": 2e-3}}
-    found = [numbers.edges_directly(PRINTED, method, few, 1)[0] for method in (numbers.EULER, numbers.CONVERGED)]
+    few = [5e-5, 1.3e-4]
+    found = [numbers.edges_directly(PRINTED, method, NEAR, 1, few)[0] for method in (numbers.EULER, numbers.CONVERGED)]
     assert (0.99 * found[1] < found[0]).all() and (found[0] < found[1]).all()
 
 
@@ -102,7 +100,7 @@ def test_critical_heights_and_their_fit_agree_with_the_claims(direct):
     for name, acceleration in (("C04.largest_height", 29.0), ("C07.height", 40.0), ("C08.height", 35.0)):
         assert direct[name] == pytest.approx(1e3 * about_states.critical_at(table, acceleration), abs=2e-4), name
     data = table[table.is_critical].sort_values("acceleration")
-    amplitudes = CubicSpline(NEAR["heights"], numbers.edges_directly(PRINTED, numbers.CONVERGED, NEAR, 1), axis=1)
+    amplitudes = CubicSpline(edges.HEIGHTS, numbers.edges_directly(PRINTED, numbers.CONVERGED, NEAR, 1), axis=1)
     fine = np.linspace(0.0, 5e-4, 1001)
     curve = numbers.Curve(fine, amplitudes(fine) / np.sin(MODEL["angle"]))
     heights = curve.critical_height(data.acceleration.to_numpy()[None])[0]

@@ -20,7 +20,6 @@ NUMBERS = {
 SETTINGS = OWN | {
     "model": MODEL,
     "numbers": NUMBERS,
-    "search": {"points": 4000, "rounds": 4, "followed": 1500, "seed": 1, "confidence": 0.95},
 }
 BOUNDS = posterior.bounds_of(SETTINGS)
 CENTRE, REACH = BOUNDS.mean(axis=0), np.ptp(BOUNDS, axis=0)
@@ -102,9 +101,8 @@ def test_other_seeds_give_other_best_values_within_their_errors():
     """The squared distance from the truth, in units of the error, has the mean 1, and 8 degrees of freedom here."""
     distances = []
     for seed in range(8):
-        settings = SETTINGS | {"search": SETTINGS["search"] | {"seed": seed}}
-        samples, _ = posterior.infer(ALL, {}, quantities, settings)
-        friction = posterior.interval_rows(samples, settings).set_index("parameter").loc["friction"]
+        samples, _ = posterior.infer(ALL, {}, quantities, SETTINGS, seed)
+        friction = posterior.interval_rows(samples, SETTINGS).set_index("parameter").loc["friction"]
         distances.append((np.log(friction.best) - CENTRE[0]) / (friction.best_error / friction.best))
     assert 0.3 < np.median(np.square(distances)) / 0.455 < 6.0
     assert abs(np.log(friction.best) - CENTRE[0]) < 0.1 * WIDTH * REACH[0]

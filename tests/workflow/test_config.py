@@ -10,7 +10,6 @@ from project import ROOT, merged, read_config
 from conveyor import Conveyor, Start, ensemble, simulation
 from conveyor.methods import fixed_step
 from conveyor.solver import model
-from identification.settings import NUMBERS_OF_CLAIMS
 from workflow.config import problems
 from workflow.config.entries import by_methods, resolve
 from workflow.config.schema import schema_at
@@ -24,17 +23,9 @@ WRONG = [
     ({"companion": {"maps": ["none"]}}, "companion.maps[0] = 'none' is unknown"),
     ({"companion": {"opening": "third"}}, "companion.opening = 'third' is unknown; there are first, second, chaos"),
     ({"companion": {"presets": {"mine": {"mas": 1.0}}}}, "companion.presets.mine.mas is an unknown key"),
-    (
-        {"identification": {"evidence": {"all": {"without": ["C06.rise"]}}}},
-        "identification.evidence.all.without[0] = 'C06.rise' should be 'C01.critical_amplitude'",
-    ),
-    (
-        {"identification": {"evidence": {"all": {"without": list(NUMBERS_OF_CLAIMS[:8])}}}},
-        "identification.evidence.all.without leaves 4 numbers for 4 parameters",
-    ),
+    ({"identification": {"search": {"points": 100}}}, "identification.search is no setting any more; remove it"),
     ({"identification": {"bounds": {"angle": [8, 16]}}}, "8° are 0.1396 rad"),
     ({"identification": {"bounds": {"friction": [0.4, 0.1]}}}, "is reversed"),
-    ({"identification": {"heights": [0.0, 2.0e-4, 1.0e-4, 3.0e-4]}}, "is not ascending"),
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
     ({"precision": {"tolerances": [1.0e-3]}}, "precision.tolerances is no setting any more; remove it (its value is a"),

@@ -10,7 +10,6 @@ from functools import cache
 
 from scripts.calibration.measurements import MeasurementError, parse, read_text
 from scripts.conveyor import RANGES
-from scripts.identification.settings import NUMBERS_OF_CLAIMS
 
 from .entries import (
     ENTRIES,
@@ -293,14 +292,6 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
                 yield f"{place}.{key}.{name} is missing; add it"
 
 
-def identification(config: dict, defaults: dict) -> Iterator[str]:
-    own = config["identification"]
-    for name, evidence in own["evidence"].items():
-        left = len(NUMBERS_OF_CLAIMS) - len(set(evidence["without"]))
-        if left <= len(own["bounds"]):
-            yield f"identification.evidence.{name}.without leaves {left} numbers for {len(own['bounds'])} parameters"
-
-
 def drive(config: dict, defaults: dict) -> Iterator[str]:
     if ("harmonic_share" in config["drive"]["bounds"]) != ("harmonic_phase" in config["drive"]["bounds"]):
         yield "drive.bounds has only one of harmonic_share and harmonic_phase; give both, or none"
@@ -358,7 +349,7 @@ def precision(config: dict, defaults: dict) -> Iterator[str]:
 
 CHECKS = (
     *(prefix, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
-    *(unknown_references, figures, unused_keys, identification, excitation, calibration),
+    *(unknown_references, figures, unused_keys, excitation, calibration),
     *(precision, drive),
 )
 

@@ -8,13 +8,12 @@ from typing_extensions import TypedDict
 from scripts.accuracy import settings as accuracy
 from scripts.calibration import settings as calibration
 from scripts.claims import settings as claims
-from scripts.conveyor import DESCRIPTIONS
 from scripts.dimensions import settings as dimensions
 from scripts.docs import settings as docs
 from scripts.excitation import settings as excitation
 from scripts.figures import settings as figures
 from scripts.fit import settings as fit
-from scripts.identification.settings import NUMBERS_OF_CLAIMS
+from scripts.identification import settings as identification
 from scripts.motion import settings as motion
 from scripts.operating import settings as operating
 from scripts.orbits import settings as orbits
@@ -23,20 +22,14 @@ from scripts.pipeline.settings import (
     MODEL_KEYS,
     NAME,
     Duration,
-    HeightNumber,
     Method,
-    Seed,
     Step,
     Tolerance,
-    check_ascending,
     interval,
-    many,
     mapping,
     number,
-    span,
     text,
     whole,
-    word,
 )
 from scripts.sensitivity import settings as sensitivity
 from scripts.sweeps import settings as sweeps
@@ -77,49 +70,6 @@ class Sharing(TypedDict):
     )
 
 
-NumberOfClaim = word("quantity of a claim, as CLAIM.QUANTITY", *NUMBERS_OF_CLAIMS)
-
-
-class Searched(TypedDict):
-    friction: interval(number("friction", "1", gt=0, le=10), DESCRIPTIONS["friction"])
-    loss: interval(number("loss", "1", gt=0, le=2), "group L of the contact: damping × contact time / mass")
-    group: interval(number("group", "1", gt=0, le=1e12), "group K of the contact: dimensionless stiffness")
-    angle: interval(number("angle", "rad", gt=0, le=1.5707), DESCRIPTIONS["angle"])
-
-
-class Evidence(TypedDict):
-    """Numbers that the search fits."""
-
-    without: many(NumberOfClaim, "quantities that are left out", least=0)
-    shifted: Annotated[bool, Field(description="add the error of the paper's method at its parameters")]
-
-
-class Edges(TypedDict):
-    vertical_acceleration: span(number("vertical amplitude", "m/s²", gt=0, le=1e4), "scan from below")
-    further: number("distance above an edge at which the first state is searched for", "m/s²", gt=0, le=1e3)
-    resolution: number("accuracy of an edge", "m/s²", gt=0, le=10)
-
-
-class PosteriorSearch(TypedDict):
-    points: whole("points of each round", 50, 10**6)
-    rounds: whole("rounds after the first one", 1, 100)
-    followed: whole("conveyors whose velocities are computed", 50, 10**6)
-    seed: Seed
-    confidence: number("confidence level of the intervals", gt=0, lt=1)
-
-
-class Identification(TypedDict):
-    bounds: Annotated[Searched, Field(description="search interval of each parameter")]
-    evidence: mapping("sets of evidence", dict.fromkeys(("all", "end_left_out", "paper_method"), Evidence))
-    contacts: mapping(
-        "contacts in the table of edges", dict.fromkeys(("loss", "group"), whole("number of values", 4, 1000))
-    )
-    heights: many(HeightNumber, "initial heights in the table of edges", least=4, check=check_ascending)
-    edges: Annotated[Edges, Field(description="edges of the states of motion")]
-    inside: number("distance inside the interval of two states at which velocities are measured", "m/s²", gt=0, le=10)
-    search: Annotated[PosteriorSearch, Field(description="importance sampling of the parameters")]
-
-
 Config = TypedDict(
     "Config",
     {
@@ -142,7 +92,7 @@ Config = TypedDict(
         **operating.SECTIONS,
         **excitation.SECTIONS,
         **calibration.SECTIONS,
-        "identification": Annotated[Identification, Field(description="parameters that the paper's numbers imply")],
+        **identification.SECTIONS,
         **figures.SECTIONS,
         **docs.SECTIONS,
     },
