@@ -10,7 +10,8 @@ from claims.about_states import flat_part
 from claims.verdicts import VERDICTS
 from conveyor import MAX_PERIOD
 from excitation import clean_drive
-from figures.captions import accumulation, fig10
+from figures.caption_numbers import fig10
+from figures.caption_numbers.bifurcation import accumulation
 from operating.chart import spreads_of
 from operating.parts import POPULATIONS
 from operating.regimes import SEVERAL
@@ -90,7 +91,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         "second_error": second_error,
         "right_signs": right_signs,
         "paper_two_states": claims.paper["C02"],
-        "heights_aside": fig10(converged=tables["edge"], euler=tables["edge_euler"])["aside"],
+        "heights_aside": fig10.numbers(converged=tables["edge"], euler=tables["edge_euler"])["aside"],
         "longest_period": MAX_PERIOD,
         "epsilon": tables["estimate"].attrs["epsilon"],
         "valley": flat_part(tables["fit"]).B,

@@ -30,7 +30,6 @@ class FigureSettings(TypedDict, total=False):
 
 
 class Figure(TypedDict):
-    title: Annotated[Line, Field(description="title")]
     section: Annotated[Line, Field(description="section of the paper")]
     paper_only: NotRequired[Annotated[Line, Field(description="why only the paper's conveyor has this figure")]]
     needs: word("motion that the figure needs", "feeding", "vertical", "nothing")

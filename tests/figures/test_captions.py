@@ -7,21 +7,28 @@ from jinja2 import UndefinedError
 from project import ROOT, read_config
 from prose import typed
 
+from accuracy.rigid_part import CONTACT, RIGID
 from figures import captions
+from figures.titles import split_title, title_of
 
 CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
 
 
+def template_of(name: str) -> str:
+    """The template of a caption, without the title."""
+    return split_title((ROOT / f"scripts/figures/plots/{name}.rst").read_text(encoding="utf-8"))[1]
+
+
 def caption(name: str, settings: dict | None = None, *, paper: bool = True, **tables: pd.DataFrame) -> str:
     """The caption of a figure from its own template, on one line."""
-    template = (ROOT / f"workflow/report/{name}.rst").read_text(encoding="utf-8")
+    template = template_of(name)
     return " ".join(captions.caption(template, name, tables, settings or {}, paper).split())
 
 
 @pytest.mark.parametrize("name", FIGURES)
 def test_no_number_of_a_caption_is_typed(name):
-    assert typed((ROOT / f"workflow/report/{name}.rst").read_text()) == []
+    assert typed(template_of(name)) == []
 
 
 @pytest.mark.parametrize("text", ["from 63 m/s² on", "for eleven heights", "to 1e-9 m", "half of 1 s"])
@@ -36,8 +43,9 @@ def test_a_missing_number_is_an_error():
 
 
 def test_titles_have_no_typed_number():
-    for name, entry in FIGURES.items():
-        assert typed(entry["title"]) == [], name
+    for name in FIGURES:
+        title = title_of(name)
+        assert typed(title) == [] and title and "\n" not in title, name
 
 
 def test_plateau_and_exponent_of_fig_22():
@@ -101,16 +109,16 @@ def test_how_long_a_rigid_part_stays_in_the_first_state():
     rows = [
         (model, "velocity", 0, amplitude, height, state if height == 0.0 else "second")
         for model, states in (
-            (captions.CONTACT, ("first", "first", "second", "second", "second")),
-            (captions.RIGID, ("first", "second", "first", "first", "second")),
+            (CONTACT, ("first", "first", "second", "second", "second")),
+            (RIGID, ("first", "second", "first", "first", "second")),
         )
         for height in (0.0, 5e-4)
         for amplitude, state in zip((20.0, 30.0, 40.0, 50.0, 60.0), states, strict=True)
     ]
-    rows += [(captions.CONTACT, "fold", 1, 20.0, np.nan, None), (captions.RIGID, "fold", 1, 22.0, np.nan, None)]
+    rows += [(CONTACT, "fold", 1, 20.0, np.nan, None), (RIGID, "fold", 1, 22.0, np.nan, None)]
     for number in (1, 2):
-        rows.append((captions.CONTACT, "period doubling", number, 50.0 * number, np.nan, None))
-        rows.append((captions.RIGID, "period doubling", number, 52.0, np.nan, None))
+        rows.append((CONTACT, "period doubling", number, 50.0 * number, np.nan, None))
+        rows.append((RIGID, "period doubling", number, 52.0, np.nan, None))
     table = pd.DataFrame(rows, columns=["model", "kind", "number", "acceleration", "z0", "state"])
     contact = pd.DataFrame()
     contact.attrs["duration"] = 1.0
@@ -146,7 +154,7 @@ def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
     columns |= {"state_below": "first", "state_above": "second"}
     converged, euler = (pd.DataFrame(columns | {"acceleration": [a]}) for a in (30.0, 40.0))
     converged.attrs = {"scan": {"start": 0.0, "stop": 5e-4, "num": 9}, "resolution": 1.0e-9}
-    template = (ROOT / "workflow/report/fig10.rst").read_text(encoding="utf-8")
+    template = template_of("fig10")
     tables = {"converged": converged, "euler": euler, "fit": converged}
     assert "at no common amplitude" in captions.caption(template, "fig10", tables, {})
     back = pd.concat([converged, converged.assign(z0=2e-4, is_critical=False, state_above="first")])
@@ -175,7 +183,7 @@ def test_a_track_that_is_too_steep_is_named():
     for inclination, static, steep in ((0.2, None, False), (0.32, None, True), (0.32, 0.4, True), (-0.5, 0.4, True)):
         model = {"friction": 0.3, "inclination": inclination} | ({"static_friction": static} if static else {})
         table.attrs |= {"model": model, "duration": 1.0}
-        template = (ROOT / "workflow/report/fig03.rst").read_text(encoding="utf-8")
+        template = template_of("fig03")
         text = captions.caption(template, "fig03", {"converged": table}, {}, paper=False)
         assert ("slides away faster and faster" in " ".join(text.split())) == steep
 

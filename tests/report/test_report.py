@@ -11,15 +11,15 @@ import pandas as pd
 import pytest
 from browser import chromium
 from PIL import Image
-from project import FIGURES, read_config
+from project import FIGURES
 from selenium.webdriver.common.by import By
 
 from claims import verdicts
 from claims.finding import Finding
+from figures.titles import title_of
 from pipeline import tables
 from report import figure_pages, summary
 
-ENTRIES = read_config()["figures"]
 QUANTITY = {"is": "height in mm", "paper": 2.0, "accepted": [None, 2.5], "because": "<as read>"}
 CLAIM = {"where": "Fig. 9", "statement": "It is low & small", "quantities": {"height": QUANTITY}}
 FOUND = {
@@ -196,7 +196,7 @@ def test_the_report_opens_with_the_summary(browser):
 
 def test_figure_and_caption_are_visible_together(browser, built):
     for figure in FIGURES:
-        title = f"Fig. {int(figure[3:])}: {ENTRIES[figure]['title']}"
+        title = f"Fig. {int(figure[3:])}: {title_of(figure)}"
         browser.execute_script("app.setView({content: 'rulegraph'})")
         until(lambda title=title: browser.find_elements(By.LINK_TEXT, title))
         browser.find_element(By.LINK_TEXT, title).click()

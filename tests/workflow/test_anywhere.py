@@ -101,7 +101,7 @@ use rule plot from conveyor as conveyor_plot with:
 def test_rules_of_the_module_with_changes(tmp_path):
     """Snakemake reads the Snakefile of the module once for each `use rule`."""
     (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + CHANGED)
-    (tmp_path / "config.yaml").write_text("figures: {fig05: {title: Forces}}")
+    (tmp_path / "config.yaml").write_text("figures: {fig05: {section: mine}}")
     targets = ("mine/signals/below_above.parquet", "figures/fig05.pdf")
     stdout = snakemake(tmp_path, "--dry-run", *targets, "--configfile", "config.yaml")
     jobs = dict(re.findall(r"^(\w+) +(\d)$", stdout, re.MULTILINE))

@@ -23,6 +23,10 @@ WRONG = [
     ({"companion": {"maps": ["none"]}}, "companion.maps[0] = 'none' is unknown"),
     ({"companion": {"opening": "third"}}, "companion.opening = 'third' is unknown; there are first, second, chaos"),
     ({"companion": {"presets": {"mine": {"mas": 1.0}}}}, "companion.presets.mine.mas is an unknown key"),
+    (
+        {"figures": {"fig03": {"title": "Mine"}}},
+        "figures.fig03.title is no setting any more; remove it (the title is in",
+    ),
     ({"identification": {"search": {"points": 100}}}, "identification.search is no setting any more; remove it"),
     ({"identification": {"bounds": {"angle": [8, 16]}}}, "8° are 0.1396 rad"),
     ({"identification": {"bounds": {"friction": [0.4, 0.1]}}}, "is reversed"),
@@ -261,7 +265,7 @@ WRONG = [
         "drive.settled is no setting any more; remove it (its value is a constant in scripts/",
     ),
     ({"model": {"inclination": 3.0}}, "model.inclination = 3.0 should be at most 1.4 (rad); angles are in radians"),
-    ({"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}}, "has no workflow/report/fig98.rst"),
+    ({"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}}, "has no scripts/figures/plots/fig98.rst"),
     # crashed the check of earlier versions, or ran without end
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "euler = 'model/acceleration' is unknown"),
     ({"figures": {"fig03": {"tables": {"euler": "prefix/x"}}}}, "figures.fig03.tables.euler = 'prefix/x' is unknown"),

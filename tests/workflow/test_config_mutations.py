@@ -141,7 +141,7 @@ def test_another_order_or_spelling_is_valid_and_equivalent():
 @pytest.mark.parametrize(
     "overlay",
     [
-        {"figures": {"fig03": {"title": r"$\dot{x}_p$ über $\hat{a}$ {braces} {}"}}},
+        {"figures": {"fig03": {"section": r"$\dot{x}_p$ über $\hat{a}$ {braces} {}"}}},
         {"claims": {"C01": {"statement": "Ä ö ü ß {x}", "where": "{}"}}},
         {"sharing": {"most_jobs": 5.0e2}, "solver": {"settling": 2.0e4}},
         {"sweeps": {"amplitudes": {"axes": {"acceleration": {"start": 20, "num": 20.0}}}}},

@@ -40,7 +40,6 @@ def test_snakemake_takes_the_commands_of_a_guide(guide):
 
 def test_names_that_the_guide_says_to_edit_exist():
     for file, name in (
-        ("scripts/figures/captions.py", "NUMBERS"),
         ("scripts/claims/verdicts.py", "FINDINGS"),
         ("scripts/claims/settings.py", "CLAIMS"),
         ("workflow/config/tables.py", "TABLES"),

@@ -151,7 +151,7 @@ def test_keys_of_an_overlay_keep_their_values():
             "sweeps": {"amplitudes": {"methods": ["event", "euler"], "axes": {"z0": {"num": 3}}}},
             "critical": {"edge_euler": {"axes": {"acceleration": [30.0]}}},
             "orbits": {"seeds": [{"acceleration": 20.0, "z0": 0.0}]},
-            "figures": {"fig04": {"title": "Mine"}},
+            "figures": {"fig04": {"section": "mine"}},
         },
     )
     found = config_of(overlay)
@@ -165,7 +165,7 @@ def test_keys_of_an_overlay_keep_their_values():
     assert found["figures"]["fig10"]["tables"].keys() == {"converged", "euler", "fit", "fit_euler"}
     assert found["critical"]["edge_euler"]["axes"]["acceleration"] == [30.0]
     assert found["orbits"]["seeds"][0]["acceleration"] == 20.0
-    assert found["figures"]["fig04"]["title"] == "Mine"
+    assert found["figures"]["fig04"]["section"] == "mine"
     assert found["figures"]["fig04"]["tables"]["euler"] == "signals/below_above_euler"
 
 
@@ -215,7 +215,7 @@ def test_pages_with_the_papers_results_say_that_they_need_its_config(target):
 
 def test_a_figure_of_the_paper_that_the_overlay_names_keeps_its_marks():
     """Its plot cannot be drawn without them."""
-    found = config_of(example("bowl") | {"figures": {"fig11": {"title": "Mine"}}})
+    found = config_of(example("bowl") | {"figures": {"fig11": {"section": "mine"}}})
     assert set(found["figures"]["fig11"]["settings"]) == set(CONFIG["figures"]["fig11"]["settings"])
     assert not set(found["figures"]["fig10"].get("settings", {})) & set(MARKS)
 

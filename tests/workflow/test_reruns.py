@@ -108,9 +108,9 @@ def test_nothing_after_another_order_or_spelling(built, overlay):
     assert built.under(overlay).planned(*targets) == {}
 
 
-def test_a_title_may_have_braces_and_reruns_nothing(built):
+def test_a_section_may_have_braces_and_reruns_nothing(built):
     """Braces, as in LaTeX, which Snakemake's messages would format."""
-    project = built.under({"figures": {"fig22": {"title": "$\\dot{x}_p$ {z}"}}})
+    project = built.under({"figures": {"fig22": {"section": "$\\dot{x}_p$ {z}"}}})
     assert project.planned(*TARGETS) == {}
 
 

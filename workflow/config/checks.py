@@ -258,7 +258,7 @@ def figures(config: dict, defaults: dict) -> Iterator[str]:
     tables = by_methods(config)
     for section in FIGURES:
         for figure, entry in config[section].items():
-            for file in (f"scripts/figures/plots/{figure}.py", f"workflow/report/{figure}.rst"):
+            for file in (f"scripts/figures/plots/{figure}.py", f"scripts/figures/plots/{figure}.rst"):
                 if not (ROOT / file).is_file():
                     yield f"{section}.{figure} has no {file}; a figure needs a plot script and a caption of its name"
             for reference in entry["tables"].values():

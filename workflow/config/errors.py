@@ -129,6 +129,8 @@ def explain(error: dict) -> str:
         return f"{key} is no setting any more, because what used it is gone; remove it"
     if kind == "extra_forbidden" and key in CONSTANTS:
         return f"{key} is no setting any more; remove it (its value is a constant in scripts/{CONSTANTS[key]}.py)"
+    if kind == "extra_forbidden" and path[0] in ("figures", "figures_on_request") and path[2:] == ["title"]:
+        return f"{key} is no setting any more; remove it (the title is in scripts/figures/plots/{path[1]}.rst)"
     if kind == "extra_forbidden":
         known = [name for option in options_of(schema_at(path[:-1])) for name in option.get("properties", {})]
         return f"{key} is an unknown key; {suggest_name(path[-1], known)}"

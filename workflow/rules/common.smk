@@ -4,6 +4,7 @@ import re
 import signal
 
 from scripts.calibration.effort import study_sets
+from scripts.figures.titles import title_of
 from scripts.pipeline.source_hash import source_hash
 from workflow.config.entries import ENTRIES, resolve
 from workflow.config.files import DEFAULT_FILES, ROOT
@@ -86,15 +87,16 @@ def one_of(names):
 # -- params ------------------------------------------------------------------------------------------------------------
 
 
-def stage(module, reference=None):
+def stage(module, reference=None, scripts=lambda wildcards: ()):
     """Common params of jobs with the script make.py.
 
     They are the module that the script calls, the hash of all code behind it, what each input table must be, and the
-    settings of the table SECTION/NAME that the job makes (`reference`). Module and table may have wildcards.
+    settings of the table SECTION/NAME that the job makes (`reference`). Module and table may have wildcards; `scripts` returns further
+    scripts, which the module imports by name.
     """
 
     def code(wildcards):
-        return source_hash("make", module.format(**wildcards).replace(".", "/"))
+        return source_hash("make", module.format(**wildcards).replace(".", "/"), *scripts(wildcards))
 
     def settings(wildcards):
         return settings_of_table(reference.format(**wildcards))
@@ -225,6 +227,12 @@ if not HAS_RECORDING:
     NO_FIGURES["excitation"] = NO_RECORDING
 if not HAS_MEASUREMENTS:
     NO_FIGURES["calibration"] = NO_MEASUREMENTS
+
+
+def caption_scripts(figures):
+    """The scripts that compute numbers of the captions of some figures."""
+    scripts = [f"figures/caption_numbers/{figure}" for figure in figures]
+    return [script for script in scripts if (ROOT / f"scripts/{script}.py").is_file()]
 
 
 def tables_of_figure(wildcards):

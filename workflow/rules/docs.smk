@@ -38,7 +38,9 @@ FACTS = {
     "drives": table("excitation/clean_drive"),
 }
 FACTS_PARAMS = {
-    "figures": {name: {key: entry[key] for key in ("title", "section")} for name, entry in config["figures"].items()},
+    "figures": {
+        name: {"title": title_of(name), "section": entry["section"]} for name, entry in config["figures"].items()
+    },
     "values": {
         "version": __version__,
         "prefix": config["prefix"],

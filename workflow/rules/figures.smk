@@ -28,7 +28,7 @@ rule plot:
 rule captions:
     input:
         read=map(table, references_of(config["figures"])),
-        templates=[source(f"workflow/report/{figure}.rst") for figure in config["figures"]],
+        templates=[source(f"scripts/figures/plots/{figure}.rst") for figure in config["figures"]],
     output:
         caption_files(),
     log:
@@ -36,7 +36,7 @@ rule captions:
     benchmark:
         benchmark_file("figures/captions")
     params:
-        **stage("figures.captions"),
+        **stage("figures.captions", scripts=lambda wildcards: caption_scripts(config["figures"])),
         figures=config["figures"],
         references=references_of(config["figures"]),
         paper=not OWN_CONVEYOR,
@@ -49,7 +49,7 @@ rule captions:
 rule caption_on_request:
     input:
         read=lambda wildcards: [table(reference) for reference in references_of(captioned(wildcards))],
-        templates=[source("workflow/report/{figure}.rst")],
+        templates=[source("scripts/figures/plots/{figure}.rst")],
     output:
         [result("captions/{figure}.rst")],
     log:
@@ -59,7 +59,7 @@ rule caption_on_request:
     wildcard_constraints:
         figure=one_of(config["figures_on_request"]),
     params:
-        **stage("figures.captions"),
+        **stage("figures.captions", scripts=lambda wildcards: caption_scripts([wildcards.figure])),
         figures=captioned,
         references=lambda wildcards: references_of(captioned(wildcards)),
         paper=not OWN_CONVEYOR,

@@ -7,7 +7,8 @@ REPORT_PAGES = figure_pages(
     {
         name: {
             "name": name,
-            **{key: entry[key] for key in ("title", "section")},
+            "title": title_of(name),
+            "section": entry["section"],
             "file": figure_file(name),
             "png": figure_file(name, "png"),
             "rst": result(f"captions/{name}.rst"),

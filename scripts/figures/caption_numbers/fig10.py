@@ -1,0 +1,34 @@
+"""Numbers of the caption of the figure fig10."""
+
+import pandas as pd
+
+from figures.plots.fig10 import ends_of
+
+
+def format_change(least: float, most: float) -> str:
+    """A range of relative changes (%) in words, "1.1 to 4.2 % below"."""
+    if least * most < 0.0:
+        return f"between {min(least, most):+.1f} and {max(least, most):+.1f} % off"
+    low, high = sorted((abs(least), abs(most)))
+    return f"{low:.1f} to {high:.1f} % {'below' if most < 0.0 else 'above'}"
+
+
+def numbers(*, converged: pd.DataFrame, fit: pd.DataFrame | None = None, euler: pd.DataFrame | None = None) -> dict:
+    found = {
+        "found": converged.is_critical.any(),
+        "fitted": fit is not None and len(fit) > 0,
+        "returns": (~converged.is_critical & (converged.state_above == "first")).any(),
+        "highest": ends_of(converged.attrs["scan"])[1],
+        "many": (converged.status != "ok").any(),
+        "undecided": converged[
+            (converged[["state_below", "state_above"]] == "undecided").any(axis=1)
+        ].acceleration.nunique(),
+        "aside": None,
+    }
+    if euler is None:
+        return found
+    both = [edge[edge.is_critical].set_index("acceleration").z0 for edge in (euler, converged)]
+    change = 100.0 * (both[0] / both[1] - 1.0).dropna()
+    if change.empty:
+        return found
+    return found | {"aside": format_change(change.max(), change.min()), "most_at": change.idxmin()}

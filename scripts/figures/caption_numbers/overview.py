@@ -1,0 +1,10 @@
+"""Numbers of the caption of the figure overview."""
+
+import pandas as pd
+
+from claims.about_chaos import positive_onset
+from claims.about_proofs import lowest_fold
+
+
+def numbers(*, bifurcations: pd.DataFrame, estimate: pd.DataFrame) -> dict[str, float]:
+    return {"fold": lowest_fold(bifurcations), "euler_positive": positive_onset(estimate)}

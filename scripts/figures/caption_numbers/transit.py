@@ -1,0 +1,27 @@
+"""Numbers of the caption of the figure transit."""
+
+import pandas as pd
+
+from conveyor import NO_FLUCTUATIONS
+from operating.chart import spreads_of
+from operating.regimes import CHAOS, SEVERAL
+from operating.transit import ENDS
+from pipeline.templates import format_number
+
+
+def numbers(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame) -> dict:
+    amplitudes = {
+        regime: list(map(format_number, rows.acceleration.unique())) for regime, rows in lengths.groupby("regime")
+    }
+    return {
+        "search": transit.attrs,
+        "backwards": transit.sort_values("back", na_position="first", kind="stable").iloc[-1].to_dict(),
+        "spread": spreads_of(transit.attrs),
+        "calibrated": transit.attrs["spread"].get("calibrated", False),
+        "coexisting": amplitudes.get(SEVERAL, []),
+        "chaotic": amplitudes.get(CHAOS, []),
+        "uncertain": int((~drift.status.isin(("ok", NO_FLUCTUATIONS))).sum()),
+        "spreads": bool((lengths.spread > 0.0).any()),
+        "ends": ENDS,
+        "middle": ENDS[1] - ENDS[0],
+    }
