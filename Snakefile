@@ -61,7 +61,6 @@ include: "workflow/rules/identification.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/docs.smk"
 include: "workflow/rules/builds.smk"
-include: "workflow/rules/report.smk"
 
 
 rule all:
@@ -73,7 +72,6 @@ rule all:
         caption_files(),
         CLAIM_FILES,
         BUILD_RECORDS,
-        REPORT_FILES,
     localrule: True
     message:
         "All figures and claims are up to date"

@@ -37,8 +37,8 @@ def made(project):
     # Results that other tests have made under another prefix are not part of this build.
     prefixes = [logs.parent.name for logs in (project.folder / "results").glob("*/logs")]
     others = [f"{part}/{prefix}/" for part in ("results", "figures") for prefix in prefixes]
-    # The origin of the results differs between builds; the report shows it.
-    aside = ("results/logs/", "results/benchmarks/", "results/report/", PROVENANCE, *others)
+    # The origin of the results differs between builds.
+    aside = ("results/logs/", "results/benchmarks/", PROVENANCE, *others)
     files = [path for part in ("results", "figures", "docs") for path in (project.folder / part).rglob("*")]
     contents = {str(path.relative_to(project.folder)): path.read_bytes() for path in files if path.is_file()}
     return {name: content for name, content in contents.items() if not name.startswith(aside)}
@@ -128,3 +128,15 @@ def test_the_commit_belongs_to_the_sources(tmp_path):
     assert provenance.sources(tmp_path) == {"commit": found["commit"], "clean": False}
     # An archive in a folder of another repository has no commit.
     assert provenance.sources(archive) == {"commit": "unknown", "clean": "unknown"}
+
+
+def test_the_report_of_snakemake_shows_each_figure_with_its_caption(builds):
+    project = builds[0]
+    project.make("--report", "report.html")
+    report = (project.folder / "report.html").read_text(encoding="utf-8")
+    captions = list((project.folder / "results/captions").glob("*.rst"))
+    assert captions
+    for caption in captions:
+        assert f'"figures/{caption.stem}.png"' in report
+        first_words = " ".join(caption.read_text(encoding="utf-8").split()[:4])
+        assert f"<p>{first_words}" in report, caption.stem

@@ -33,7 +33,7 @@ from .tables import TABLES, entry_of, references
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
 RESERVED = {*ENTRIES, *(table.split("/")[0] for table in TABLES), "precision", "precision_times", "article", "claims"}
-RESERVED |= {"benchmarks", "captions", "docs", "logs", "report", "runs", "sections", "shards", "site", "site_pages"}
+RESERVED |= {"benchmarks", "captions", "docs", "logs", "runs", "sections", "shards", "site", "site_pages"}
 RESERVED |= {"archive", "checks"}
 LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
 MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds

@@ -23,7 +23,7 @@ rule claims:
         template=source("workflow/templates/claims.md"),
     output:
         claims=table("results/claims"),
-        report=result("claims.md"),
+        report=report(result("claims.md"), category="Claims", labels={"figure": "the paper's statements"}),
     log:
         log_file("checks/claims"),
     benchmark:

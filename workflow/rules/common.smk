@@ -79,6 +79,18 @@ def caption_files(figures=config["figures"]):
     return [result(f"captions/{figure}.rst") for figure in figures]
 
 
+def section_in_report(wildcards):
+    """The category of a figure in Snakemake's report."""
+    section = FIGURES[wildcards.figure]["section"]
+    return f"Section {section}" if re.fullmatch(r"fig\d+", wildcards.figure) else f"Section {section}, beyond the paper"
+
+
+def labels_in_report(wildcards):
+    """The labels of a figure in Snakemake's report, which takes {name} for a wildcard."""
+    title = title_of(wildcards.figure)
+    return {"figure": wildcards.figure, "title": title.replace("{", "{{").replace("}", "}}")}
+
+
 def one_of(names):
     """A wildcard constraint: one of these names."""
     return "|".join(map(re.escape, names)) or "(?!)"

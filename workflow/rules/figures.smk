@@ -6,7 +6,12 @@ rule plot:
         unpack(tables_of_figure),
     output:
         pdf=figure_file("{figure}"),
-        png=figure_file("{figure}", "png"),
+        png=report(
+            figure_file("{figure}", "png"),
+            caption="../report/figure.rst",
+            category=section_in_report,
+            labels=labels_in_report,
+        ),
     log:
         log_file("figures/{figure}"),
     benchmark:

@@ -1,1 +1,0 @@
-"""Stage report: the pages that `snakemake --report` shows, figures beside their captions."""
