@@ -24,7 +24,6 @@ COARSE = {"axes": {"acceleration": {"num": 3}, "z0": {"num": 2}}, "duration": 0.
 COARSE_PAIRS = {"axes": {"acceleration": {"num": 3}}, "duration": 0.1}
 TINY = {
     "attractors": {"acceleration": {"num": 3}, "transient": 20, "strobes": 8},
-    "lyapunov": {"cycles": 20, "blocks": 5},
     "sweeps": {"amplitudes": COARSE, "on_plate": {"axes": {"acceleration": {"num": 3}}}},
     "estimates": {"phase": COARSE_PAIRS},
 }

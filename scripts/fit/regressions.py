@@ -17,6 +17,8 @@ TABLES = {
     ),
 }
 
+SEED = 1  # of pymoo's evolution strategy
+EVALUATIONS = 5000  # at most; the search ends by itself after about 1000
 BELOW = 0.999  # largest pole of Eq. 13 in units of the lowest amplitude
 
 
@@ -35,7 +37,7 @@ def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
         valley["start"] = -BELOW * data[0].min()
         bounds["B"] = valley["start"], bounds["B"][1]
     valley = np.linspace(valley["start"], valley["stop"], int(valley["num"]))
-    pymoo = fit_hyperbola_by_pymoo(*data, bounds, settings["seed"], settings["evaluations"])
+    pymoo = fit_hyperbola_by_pymoo(*data, bounds, SEED, EVALUATIONS)
     least_squares = fit_hyperbola(*data, bounds["B"])
     valley, errors = hyperbola_profile(*data, valley)
     rows = [("pymoo", *pymoo.parameters, pymoo.error, pymoo.evaluations)]

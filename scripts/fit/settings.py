@@ -5,7 +5,7 @@ from typing import Annotated, NotRequired
 from pydantic import Field
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import Acceleration, Name, Seed, interval, mapping, number, span, whole
+from ..pipeline.settings import Acceleration, Name, interval, mapping, number, span
 
 FIT = {
     "A": number("parameter A of Eq. 13", "m²/s²", ge=-1e6, le=1e6),
@@ -18,8 +18,6 @@ class Regression(TypedDict):
     critical: Annotated[Name, Field(description="entry of `critical` that Eq. 13 is fitted to")]
     acceleration: NotRequired[interval(Acceleration, "amplitudes of the fitted data")]
     bounds: mapping("search intervals", {name: interval(item, f"bounds of {name}") for name, item in FIT.items()})
-    seed: Seed
-    evaluations: whole("largest number of evaluations", 1, 10**9)
     valley: span(FIT["B"], "values of B along the valley")
     paper: NotRequired[mapping("the paper's parameters", FIT)]
 

@@ -26,6 +26,9 @@ DRAWN = (
 )
 # Relative growth of the hypervolume in the last quarter of the generations up to which a search has settled.
 SETTLED = 0.02
+SEEDS = (1, 2)  # two searches; each must find nearly the front of both
+MOST_CHECKED = 20  # designs with the transit of all parts, chosen to differ as much as possible
+RECOMMENDED = 5  # of the confirmed designs
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
 # A second harmonic in the direction of vibration, searched if the config has bounds for both numbers.
 SECOND_HARMONIC = ("harmonic_share", "harmonic_phase")
@@ -224,7 +227,7 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
     """A front with the transit of all parts for some designs, and the recommended ones among confirmed designs."""
     unknown = dict.fromkeys((f"checked_{name}" for name in CHECKED), np.nan)
     front = front.assign(checked=False, confirmed=False, recommended=False, **unknown)
-    chosen = spread(objectives_of(front, front.peak_acceleration), settings["checked"])
+    chosen = spread(objectives_of(front, front.peak_acceleration), MOST_CHECKED)
     if len(chosen) == 0:
         return front
     designs = front.loc[chosen, list(searched(settings["bounds"]))].to_numpy()
@@ -234,7 +237,7 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
     front.loc[chosen, list(unknown)] = outcome[list(CHECKED)].to_numpy()
     front.loc[chosen, "confirmed"] = is_within(outcome, settings)
     sure = outcome[is_within(outcome, settings)]
-    best = spread(objectives_of(sure, front.peak_acceleration[sure.index]), settings["recommended"])
+    best = spread(objectives_of(sure, front.peak_acceleration[sure.index]), RECOMMENDED)
     front.loc[sure.index[best], "recommended"] = True
     return front
 
@@ -243,9 +246,9 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     """The tables of the front and of the generations."""
     few = {**settings, "starts": settings["search"]["parts"], "longest": settings["search"]["longest"]}
     # One thread for each seed: the designs of one generation are too few for several threads.
-    total = len(settings["seeds"]) * settings["generations"]
+    total = len(SEEDS) * settings["generations"]
     with progress_bar(total=total, label=progress, unit="generations") as shown, ThreadPoolExecutor(threads) as pool:
-        searches = {seed: pool.submit(search, few, seed, shown.update) for seed in settings["seeds"]}
+        searches = {seed: pool.submit(search, few, seed, shown.update) for seed in SEEDS}
     fronts = {seed: one.result() for seed, one in searches.items()}
     designs, objectives = pareto.best_of(
         np.vstack([front.points for front in fronts.values()]),

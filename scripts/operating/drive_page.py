@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from operating.chart import MANY_LATE, RULE_OF_THREE, spreads_of
-from operating.drive import DRAWN, SETTLED
+from operating.drive import DRAWN, SEEDS, SETTLED
 from operating.regimes import is_frictionless, is_steep
 from operating.transit import ENDS
 from pipeline.templates import render
@@ -25,6 +25,7 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
     last, growth = generations[generations.generation == generations.generation.max()], last_growth(generations)
     return {
         "search": front.attrs,
+        "seeds": len(SEEDS),
         "drawn": DRAWN * front.attrs["population"],
         "settled": SETTLED,
         "spread": spreads_of(front.attrs),

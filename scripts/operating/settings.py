@@ -33,8 +33,6 @@ class Operating(TypedDict):
     psi0: interval(MODEL_TYPES["psi0"], "phases of the excitation", point=True)
     starts: whole("random initial conditions per amplitude", 16, 10**6)
     seed: Seed
-    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
-    cycles: whole("cycles over which a mean velocity is taken", 10, 10**6, "excitation cycles")
     tolerance: Tolerance
 
 
@@ -86,7 +84,6 @@ class Advice(TypedDict):
 class Throws(TypedDict):
     throw_number: span(number("throw number a_z/(g cos α)", gt=0, le=100), "throw numbers")
     starts: whole("random initial conditions per throw number", 16, 10**6)
-    followed: whole("initial conditions per attractor whose mean velocity is computed", 2, 1000)
 
 
 class Track(TypedDict):
@@ -94,7 +91,6 @@ class Track(TypedDict):
     inclination: span(MODEL_TYPES["inclination"], "inclinations of the track")
     phase_shift: span(MODEL_TYPES["phase_shift"], "phase shifts of the drive")
     starts: whole("random initial conditions per inclination", 2, 10**6)
-    cycles: whole("cycles that the feeding motion is followed for, at least", 4, 10**6, "excitation cycles")
 
 
 class DriveSearch(TypedDict):
@@ -124,9 +120,6 @@ class Drive(TypedDict):
     search: Annotated[DriveSearch, Field(description="parts of each design of the search")]
     population: whole("population of NSGA-II", 4, 10**4)
     generations: whole("generations of NSGA-II", 4, 10**5)
-    seeds: many(Seed, "seeds of the random numbers")
-    checked: whole("designs of the front that are confirmed by the transit of all parts", 1, 1000)
-    recommended: whole("recommended settings", 1, 100)
 
 
 SECTIONS = {

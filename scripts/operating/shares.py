@@ -46,6 +46,8 @@ SETTLED = 1e-3
 NEGLIGIBLE = 1e-6  # of the plate's largest velocity; a smaller mean velocity is an error of the solver
 RUNS = 6  # each twice as long as the one before
 MOST_CYCLES = 4000  # upper limit of cycles of a brief run
+FOLLOWED = 8  # initial conditions per attractor from which its mean velocity is computed
+CYCLES = 250  # excitation cycles, at least, over which a mean velocity is computed
 FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
 
 
@@ -229,6 +231,7 @@ def shares_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progr
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
     """The tables of shares and of regimes for the settings of the config."""
+    settings = settings | {"followed": FOLLOWED, "cycles": CYCLES}
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
     table = shares_at(amplitudes, settings, threads=threads, progress=progress)
     while True:

@@ -12,6 +12,7 @@ from conveyor import normal_gravity, throw_number, throw_velocity
 from operating import shares
 from pipeline import fields
 
+FOLLOWED = 4  # initial conditions per attractor from which its mean velocity is computed
 TABLES = {
     "throws": (
         fields.text("conveyor", "paper, or the name of the example"),
@@ -37,6 +38,7 @@ def settings_of_conveyor(settings: dict, model: dict) -> dict:
 
 def make(examples: list[str], settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
     """The shares at each throw number, for the conveyors of the config and of the `examples` (YAML texts)."""
+    settings = settings | {"followed": FOLLOWED, "cycles": shares.CYCLES}
     conveyors = {"paper": {}} | {one["prefix"]: one["model"] for one in map(yaml.safe_load, examples)}
     throws = np.linspace(*(settings["throw_number"][key] for key in ("start", "stop", "num")))
     tables = []

@@ -17,6 +17,7 @@ from pipeline.labelling import label_starts
 
 STATES = ("first", "second")
 NOT_REACHED = "no initial condition leads to the state"
+CYCLES = 60  # excitation cycles; the transient of the feeding velocity decays within about ten
 TABLES = {
     "track": (
         fields.number("inclination", "rad", "inclination of the track"),
@@ -60,7 +61,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     number, state, of_motion, settled, is_open = settled_motions(inclinations, settings, threads)
     rows = np.repeat(settled, len(shifts))
     rows["phase_shift"] = np.tile(shifts, len(settled))
-    durations = brief_durations(rows, np.repeat(of_motion, len(shifts)), settings["cycles"])
+    durations = brief_durations(rows, np.repeat(of_motion, len(shifts)), CYCLES)
     options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
     run = sweep(rows, duration=durations, **options)
     shape = (len(inclinations), len(STATES), len(shifts))

@@ -7,6 +7,8 @@ from conveyor import lyapunov_spectrum_on_attractors
 from orbits.attractor_states import parameters_on_attractors
 from pipeline import fields
 
+# Excitation cycles in a block, and blocks, from whose means the standard error is computed.
+CYCLES, BLOCKS = 100, 20
 TABLES = {
     "spectrum": (
         fields.ORBIT[1],
@@ -25,6 +27,6 @@ def make(
 ) -> dict[str, np.ndarray]:
     """The columns of the table of Lyapunov spectra from the table of strobes."""
     last, parameters = parameters_on_attractors(strobes, settings)
-    options = {name: settings[name] for name in ("cycles", "blocks", "tolerance")}
+    options = {"cycles": CYCLES, "blocks": BLOCKS, "tolerance": settings["tolerance"]}
     vertical = lyapunov_spectrum_on_attractors(parameters, **options, threads=threads, progress=progress)
     return {"acceleration": last.acceleration, "branch": last.branch, **vertical}

@@ -17,6 +17,7 @@ from pipeline.rule_log import JobError
 
 # Size of the search: amplitudes between the limits, and initial conditions at each.
 AMPLITUDES, INITIAL_CONDITIONS = 15, 8
+CYCLES = 800  # excitation cycles, after which a trajectory is close to its orbit
 DIGITS = 4  # of the longest flight, by which orbits with the same period and amplitude are distinguished
 
 
@@ -32,9 +33,7 @@ def follow_seeds(settings: dict) -> list[Orbit]:
     for seed in settings["seeds"]:
         row = grid.product({name: [value] for name, value in seed.items()}, settings["model"])[1]
         state = initial_states(row, ORBIT_TOLERANCE)[0]
-        orbit = settled_orbit(
-            row[0], seed["acceleration"], state, range(1, settings["max_period"] + 1), settings["cycles"]
-        )
+        orbit = settled_orbit(row[0], seed["acceleration"], state, range(1, settings["max_period"] + 1), CYCLES)
         if orbit is None:
             raise JobError(
                 f"orbits.seeds: {seed} leads to no stable orbit of up to {settings['max_period']} cycles; "
@@ -51,9 +50,7 @@ def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
         at_rest = initial_states(row[None], ORBIT_TOLERANCE)
         seen = set()
         for state in np.vstack([at_rest, sampled_initial_conditions(row)[:INITIAL_CONDITIONS]]):
-            orbit = settled_orbit(
-                parameters, acceleration, state, range(1, settings["max_period"] + 1), settings["cycles"]
-            )
+            orbit = settled_orbit(parameters, acceleration, state, range(1, settings["max_period"] + 1), CYCLES)
             if orbit is not None and (key := (orbit.period, round(orbit.longest_flight, DIGITS))) not in seen:
                 seen.add(key)
                 yield orbit

@@ -13,7 +13,6 @@ from ..pipeline.settings import (
     Height,
     Model,
     Name,
-    Seed,
     Tolerance,
     Velocity,
     interval,
@@ -49,7 +48,6 @@ class Orbits(TypedDict):
     ]
     limits: interval(Acceleration, "amplitudes between which branches are followed")
     max_period: whole("longest period that is followed", 1, 64, "excitation cycles")
-    cycles: whole("cycles until a seed is near its orbit", 64, 10**9, "excitation cycles")
     most: whole("orbits after which no further branch is followed", 1, 10**9)
     model: NotRequired[Model]
 
@@ -75,15 +73,6 @@ class Attractors(TypedDict):
 
 
 class Lyapunov(TypedDict):
-    cycles: whole("cycles per block", 1, 10**9, "excitation cycles")
-    blocks: whole("number of blocks", 2, 10**6)
-    tolerance: NotRequired[Tolerance]
-
-
-class Witnesses(TypedDict):
-    strobes: whole("samples of the 0-1 test", 100, 10**8)
-    seed: Seed
-    significant: number("standard errors by which an exponent is positive", ge=0, le=1e6)
     tolerance: NotRequired[Tolerance]
 
 
@@ -95,5 +84,4 @@ SECTIONS = {
     "certificates": Annotated[Certificates, Field(description="proofs of orbits, bifurcations and chaos")],
     "attractors": Annotated[Attractors, Field(description="stroboscopic states over the amplitude")],
     "lyapunov": Annotated[Lyapunov, Field(description="Lyapunov exponents of the attractors")],
-    "witnesses": Annotated[Witnesses, Field(description="tests for chaos")],
 }

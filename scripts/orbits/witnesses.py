@@ -24,6 +24,9 @@ TABLES = {
 }
 
 # Strobes that vary by less than this, in m/s, are constant.
+STROBES = 2000  # samples of the 0-1 test
+SEED = 1  # of its frequencies
+SIGNIFICANT = 3.0  # standard errors by which a positive exponent must exceed zero
 RESOLUTION = 1e-9
 
 
@@ -33,8 +36,8 @@ def zero_one_values(parameters: np.ndarray, settings: dict, *, threads: int, pro
 
     def work(begin, end):
         for i in range(begin, end):
-            speeds = strobes(parameters[i], settings["strobes"], settings["tolerance"])[:, 1]
-            found[i] = zero_one(speeds, settings["seed"], RESOLUTION)
+            speeds = strobes(parameters[i], STROBES, settings["tolerance"])[:, 1]
+            found[i] = zero_one(speeds, SEED, RESOLUTION)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=8, progress=progress)
     return found
@@ -70,9 +73,9 @@ def make(
     last, parameters = parameters_on_attractors(strobes, settings)
     rows = last[["acceleration", "branch", "period", "state"]].merge(spectrum, on=["branch", "acceleration"])
     rows["zero_one"] = zero_one_values(parameters, settings, threads=threads, progress=progress)
-    rows["by_exponent"] = rows.lambda_1 > settings["significant"] * rows.stderr
+    rows["by_exponent"] = rows.lambda_1 > SIGNIFICANT * rows.stderr
     rows["by_zero_one"] = rows.zero_one > 0.5
     rows["by_period"] = rows.period == 0
     rows["agree"] = (rows.by_exponent == rows.by_zero_one) & (rows.by_exponent == rows.by_period)
-    rows["reason"] = [reason(row, settings["significant"]) for _, row in rows.iterrows()]
+    rows["reason"] = [reason(row, SIGNIFICANT) for _, row in rows.iterrows()]
     return {column.name: rows[column.name].to_numpy() for column in TABLES["witnesses"]}

@@ -122,9 +122,9 @@ def test_a_search_with_known_outcomes_finds_their_front(made):
     assert (front.displacement <= SETTINGS["displacement"]).all()
     assert front.velocity.min() >= SETTINGS["velocity"]
     assert front.impact_speed.max() <= SETTINGS["impact_speed"]
-    assert front.checked.sum() == SETTINGS["checked"]
+    assert front.checked.sum() == drive.MOST_CHECKED
     assert (front.confirmed == (front.checked & (front.acceleration <= 60.0))).all()
-    assert front.recommended.sum() == SETTINGS["recommended"]
+    assert front.recommended.sum() == drive.RECOMMENDED
     assert front.confirmed[front.recommended].all()
     checked = front[front.checked]
     assert checked.checked_velocity.to_numpy() == pytest.approx(checked.velocity)
@@ -148,8 +148,9 @@ def test_seeds_search_on_their_own_whatever_the_number_of_threads(monkeypatch):
 
     monkeypatch.setattr(drive, "search", search)
     monkeypatch.setattr(drive, "check", lambda front, settings, threads: front)
+    monkeypatch.setattr(drive, "SEEDS", (5, 3))
     for threads in (1, 2):
-        found = drive.make({**SETTINGS, "seeds": [5, 3]}, threads=threads)
+        found = drive.make(SETTINGS, threads=threads)
         generations = found["drive_generations"]
         assert list(generations.seed) == [5, 3]
         assert generations.hypervolume[0] / generations.hypervolume[1] == pytest.approx(5.0 / 3.0)
@@ -168,7 +169,7 @@ def test_the_page_lists_the_recommended_settings(made):
     front = made["drive_front"]
     fastest = front[front.recommended].sort_values("velocity").iloc[-1]
     lines = [line for line in page.splitlines() if line.startswith("| ")][1:]
-    assert len(lines) == SETTINGS["recommended"]
+    assert len(lines) == drive.RECOMMENDED
     assert lines[0].startswith(f"| {fastest.acceleration:.3g} |")
     assert f"| {100 * fastest.velocity:.3g} | {100 * fastest.velocity + 0.5:.3g} |" in lines[0]
     assert f"the slowest 5 % of the\nparts travel at {100 * fastest.velocity:.3g} cm/s" in page

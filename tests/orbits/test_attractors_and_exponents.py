@@ -35,8 +35,6 @@ SETTINGS = {
     "settling": 2000,
     "mean_settling": 375,
     "tolerance": 1e-10,
-    "cycles": 100,
-    "blocks": 10,
     "model": MODEL,
 }
 
@@ -47,7 +45,7 @@ def tables():
     still = {**SETTINGS, "acceleration": {"start": 0.0, "stop": 80.0, "num": 3}}
     points = pd.DataFrame(strobes.make(still))
     spectrum = pd.DataFrame(exponents.make(points, still))
-    seen = pd.DataFrame(witnesses.make(points, spectrum, still | {"strobes": 1000, "seed": 1, "significant": 3.0}))
+    seen = pd.DataFrame(witnesses.make(points, spectrum, still))
     return points, spectrum, seen
 
 
@@ -130,7 +128,7 @@ def test_limits_below_the_first_doubling_are_named():
 def test_seeds_are_found():
     """At 35 to 45 m/s² a part rides or jumps with the period of the excitation, and no cascade begins."""
     section = read_config("orbits")["orbits"]
-    settings = {**section, "limits": [35.0, 45.0], "max_period": 1, "cycles": 300, "model": MODEL}
+    settings = {**section, "limits": [35.0, 45.0], "max_period": 1, "model": MODEL}
     del settings["seeds"]
     found = seeds.seeds(grid.row_of(settings["model"]), settings)
     assert {orbit.period for orbit in found} == {1}
@@ -143,7 +141,7 @@ def test_seeds_are_found():
 def test_a_search_without_a_stable_orbit_leaves_the_tables_empty():
     """In chaos there is no stable orbit."""
     section = read_config("orbits")["orbits"]
-    settings = {**section, "limits": [79.0, 81.0], "cycles": 300, "model": MODEL}
+    settings = {**section, "limits": [79.0, 81.0], "model": MODEL}
     del settings["seeds"]
     tables = branches.make(settings)
     assert {len(column) for table in tables.values() for column in table.values()} == {0}
@@ -167,18 +165,18 @@ def test_orbits_on_a_known_branch_start_no_new_branch(monkeypatch):
 
 def test_no_branch_is_followed_after_the_largest_number_of_orbits():
     section = read_config("orbits")["orbits"]
-    settings = {**section, "limits": [38.0, 42.0], "max_period": 1, "cycles": 300, "most": 1, "model": MODEL}
+    settings = {**section, "limits": [38.0, 42.0], "max_period": 1, "most": 1, "model": MODEL}
     tables = branches.make({key: value for key, value in settings.items() if key != "seeds"})
     assert set(tables["branches"]["branch"]) == {0}
 
 
 def test_an_exponent_within_its_error_is_not_a_witness_of_chaos(monkeypatch):
-    """λ1 = 1 ± 1 1/s does not differ from zero by two standard errors; 3 ± 1 1/s does."""
+    """λ1 = 1 ± 1 1/s does not differ from zero by three standard errors; 4 ± 1 1/s does."""
     last = pd.DataFrame({"acceleration": [50.0, 60.0], "branch": "up", "period": [0, 0], "state": "chaos"})
     monkeypatch.setattr(witnesses, "parameters_on_attractors", lambda *_: (last, None))
     monkeypatch.setattr(witnesses, "zero_one_values", lambda *_, **__: np.array([0.99, 0.99]))
-    spectrum = last[["acceleration", "branch"]].assign(lambda_1=[1.0, 3.0], stderr=1.0)
-    found = witnesses.make(None, spectrum, {"significant": 2.0})
+    spectrum = last[["acceleration", "branch"]].assign(lambda_1=[1.0, 4.0], stderr=1.0)
+    found = witnesses.make(None, spectrum, {})
     assert found["by_exponent"].tolist() == [False, True]
     assert found["agree"].tolist() == [False, True]
     assert "does not differ significantly from 0" in found["reason"][0]

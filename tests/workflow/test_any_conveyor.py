@@ -31,17 +31,16 @@ COARSE = {
     },
     "estimates": {"phase": {"axes": FEW}, "height": {"axes": FEW}},
     "critical": {"edge": {"axes": FEW, "scan": {"num": 9}}},
-    "regressions": {"height": {"evaluations": 500, "valley": {"num": 9}}},
+    "regressions": {"height": {"valley": {"num": 9}}},
     "signals": {"states": {"times": {"num": 401}}, "long_chaos": {"axes": {"z0": [0.0]}}},
     "dimensions": {"portrait": PORTRAIT, "portrait_correlation": PORTRAIT | {"samples": 1000}},
-    "orbits": {"max_period": 1, "cycles": 300, "most": 400},
+    "orbits": {"max_period": 1, "most": 400},
     "attractors": FEW | {"transient": 50, "strobes": 8},
-    "lyapunov": {"cycles": 10, "blocks": 4},
     "sensitivity": {"most": 1, "doublings": 1, "heights": 1, "curves": {"doublings": 1, "points": 10}},
-    "operating": FEW | {"resolution": 10.0, "starts": 16, "followed": 2, "cycles": 20},
+    "operating": FEW | {"resolution": 10.0, "starts": 16},
     "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},
     "drift": {"amplitudes": 1, "runs": 4, "cycles": 256, "lengths": [0.5, 1.0]},
-    "track": {"inclination": {"num": 2}, "phase_shift": {"num": 3}, "starts": 4, "cycles": 20},
+    "track": {"inclination": {"num": 2}, "phase_shift": {"num": 3}, "starts": 4},
 }
 
 # SI units. On most of these conveyors, something that the paper's conveyor has is missing.

@@ -246,7 +246,10 @@ WRONG = [
             "benchmark.cases.A.model": {"benchmark": {"cases": {"A": {"model": {"static_friction": 0.1}}}}},
         }.items()
     ),
-    ({"drive": {"recommended": 9, "checked": 8}}, "drive.recommended = 9 is above drive.checked = 8; check more"),
+    (
+        {"sharing": {"seconds": {"cycle": 1.0}}},
+        "sharing.seconds is no setting any more; remove it",
+    ),
     ({"calibration": {"effort": 0}}, "calibration.effort = 0 should be at least 0.05"),
     (
         {

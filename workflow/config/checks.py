@@ -295,9 +295,6 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
 def drive(config: dict, defaults: dict) -> Iterator[str]:
     if ("harmonic_share" in config["drive"]["bounds"]) != ("harmonic_phase" in config["drive"]["bounds"]):
         yield "drive.bounds has only one of harmonic_share and harmonic_phase; give both, or none"
-    checked, recommended = config["drive"]["checked"], config["drive"]["recommended"]
-    if recommended > checked:
-        yield f"drive.recommended = {recommended} is above drive.checked = {checked}; check more, or recommend fewer"
 
 
 def calibration(config: dict, defaults: dict) -> Iterator[str]:

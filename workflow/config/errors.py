@@ -54,6 +54,19 @@ CONSTANTS = {
     "identification.inside": "identification/numbers",
     "identification.evidence": "identification/posterior",
     "identification.search": "identification/posterior",
+    "sharing.seconds": "workflow/config/sharing",
+    "sharing.megabytes": "workflow/config/sharing",
+    "witnesses": "orbits/witnesses",
+    "lyapunov.cycles": "orbits/exponents",
+    "lyapunov.blocks": "orbits/exponents",
+    "orbits.cycles": "orbits/seeds",
+    "operating.followed": "operating/shares",
+    "operating.cycles": "operating/shares",
+    "throws.followed": "operating/throws",
+    "track.cycles": "operating/track",
+    "drive.seeds": "operating/drive",
+    "drive.checked": "operating/drive",
+    "drive.recommended": "operating/drive",
     "precision.reference": "accuracy/reference_check",
     "stability_estimates": "accuracy/stability_estimates",
     "rigid_part": "accuracy/rigid_part",
@@ -128,7 +141,8 @@ def explain(error: dict) -> str:
     if kind == "extra_forbidden" and key in GONE:
         return f"{key} is no setting any more, because what used it is gone; remove it"
     if kind == "extra_forbidden" and key in CONSTANTS:
-        return f"{key} is no setting any more; remove it (its value is a constant in scripts/{CONSTANTS[key]}.py)"
+        folder = "" if CONSTANTS[key].startswith("workflow/") else "scripts/"
+        return f"{key} is no setting any more; remove it (its value is a constant in {folder}{CONSTANTS[key]}.py)"
     if kind == "extra_forbidden" and path[0] in ("figures", "figures_on_request") and path[2:] == ["title"]:
         return f"{key} is no setting any more; remove it (the title is in scripts/figures/plots/{path[1]}.rst)"
     if kind == "extra_forbidden":

@@ -25,7 +25,6 @@ from scripts.pipeline.settings import (
     Method,
     Step,
     Tolerance,
-    interval,
     mapping,
     number,
     text,
@@ -33,10 +32,6 @@ from scripts.pipeline.settings import (
 )
 from scripts.sensitivity import settings as sensitivity
 from scripts.sweeps import settings as sweeps
-
-Seconds = number("measured time on one core", "s", gt=0, le=1e6)
-SecondsPair = interval(Seconds, "[time where the plate cannot throw parts, time where it can]", point=True)
-Megabytes = number("memory", "MB", gt=0, le=1e6)
 
 
 class Solver(TypedDict):
@@ -50,24 +45,10 @@ class Solver(TypedDict):
     )
 
 
-class Costs(TypedDict):
-    cycle: number("time per excitation cycle by the method event, on one core", "s", gt=0, le=1e6)
-    fixed_step: number("time per step of a fixed-step method, on one core", "s", gt=0, le=1e6)
-    start: mapping(
-        "cost per initial condition, by what is known of its conveyor",
-        {"alone": SecondsPair, "chaos": SecondsPair, "orbits": SecondsPair},
-    )
-    conveyor: mapping("cost of the search for attractors, per conveyor", {"chaos": SecondsPair, "orbits": SecondsPair})
-
-
 class Sharing(TypedDict):
     job_seconds: number("duration of a job on two cores", "s", gt=0, le=1e6)
     most_jobs: whole("largest number of jobs per sweep", 1, 10**5)
     core_hours: number("largest estimated cost of a sweep", "h", gt=0, le=1e9)
-    seconds: Annotated[Costs, Field(description="measured costs from which a sweep's cost is estimated")]
-    megabytes: mapping(
-        "memory of a job and of each row", {"program": Megabytes, "row": Megabytes, "written_row": Megabytes}
-    )
 
 
 Config = TypedDict(

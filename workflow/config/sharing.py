@@ -14,6 +14,16 @@ from scripts.pipeline.sizes import BLOCK, CHAOS_SHARED, CYCLES_SHARED, ORBITS_SH
 from .entries import count_points, count_values, ends, values_of
 
 THREADS = 2  # of a job
+# Processor times of one core (s), measured at nine amplitudes from 30 to 90 m/s² and tolerances from 1e-6 to 3e-10:
+# of one excitation cycle by the method event, and of one step of a fixed-step method.
+CYCLE, FIXED_STEP = 4.5e-6, 3.5e-9
+# Processor times (s) per initial condition, and per conveyor, by what is computed first for it: nothing (alone),
+# its chaotic sets (chaos), or these and its periodic orbits (orbits). The first number of a pair holds if the plate
+# cannot throw a part at rest, the second if it can.
+START = {"alone": (1.5e-4, 6.0e-2), "chaos": (4.5e-5, 1.0e-4), "orbits": (1.0e-5, 8.0e-5)}
+CONVEYOR = {"alone": (0.0, 0.0), "chaos": (4.0e-3, 0.2), "orbits": (3.0e-2, 0.21)}
+# Memory (MB) of every job, per row in computation, and per row in writing.
+PROGRAM, ROW, WRITTEN_ROW = 280.0, 9.0e-4, 2.5e-4
 STARTS = ("psi0", "z0", "vz0")  # parameters of an initial condition; all other ones belong to the conveyor
 
 
@@ -62,18 +72,15 @@ def known_of(entry: dict) -> str:
     return "chaos" if starts < ORBITS_SHARED else "orbits"
 
 
-def seconds_of(entry: dict, costs: dict, rows: int) -> float:
-    """Estimated time of consecutive rows of a resolved entry on one core (s), from measured `costs` (s)."""
+def seconds_of(entry: dict, rows: int) -> float:
+    """Estimated time of consecutive rows of a resolved entry on one core (s)."""
     if "step" in entry:
-        run = costs["fixed_step"] * entry["duration"] / entry["step"]
+        run = FIXED_STEP * entry["duration"] / entry["step"]
     else:
         frequencies = values_of(entry, "frequency")
-        run = costs["cycle"] * entry["duration"] * sum(frequencies) / len(frequencies)
+        run = CYCLE * entry["duration"] * sum(frequencies) / len(frequencies)
     known, share = known_of(entry), throwing_share(entry)
-    start, conveyor = (
-        quiet + share * (thrown - quiet)
-        for quiet, thrown in (costs["start"][known], costs["conveyor"].get(known, (0, 0)))
-    )
+    start, conveyor = (quiet + share * (thrown - quiet) for quiet, thrown in (START[known], CONVEYOR[known]))
     blocks, rest = divmod(rows, BLOCK)
     conveyors = blocks * conveyors_of(entry["axes"], BLOCK) + conveyors_of(entry["axes"], rest)
     return rows * (run + start) + conveyors * conveyor
@@ -84,21 +91,20 @@ def plan(sharing: dict, entry: dict, shards: int | None = None) -> Plan:
 
     Jobs last longer if there would be too many of them.
     """
-    costs, memory = sharing["seconds"], sharing["megabytes"]
     points = count_points(entry["axes"])
     if shards:
         rows = math.ceil(points / shards)
     else:
         # The largest number of rows that take at most this time.
         limit = THREADS * sharing["job_seconds"]
-        rows = bisect_right(range(1, points + 1), limit, key=lambda rows: seconds_of(entry, costs, rows))
+        rows = bisect_right(range(1, points + 1), limit, key=lambda rows: seconds_of(entry, rows))
         rows = max(1, rows, math.ceil(points / sharing["most_jobs"]))
-    computed, written = memory["row"] * min(rows, BLOCK), memory["written_row"] * min(rows, ROW_GROUP + BLOCK)
+    computed, written = ROW * min(rows, BLOCK), WRITTEN_ROW * min(rows, ROW_GROUP + BLOCK)
     return Plan(
         points,
         rows,
         math.ceil(points / rows),
-        seconds_of(entry, costs, rows),
-        memory["program"] + computed + written,
-        memory["program"] + memory["written_row"] * min(points, 2 * ROW_GROUP),
+        seconds_of(entry, rows),
+        PROGRAM + computed + written,
+        PROGRAM + WRITTEN_ROW * min(points, 2 * ROW_GROUP),
     )

@@ -178,7 +178,7 @@ TABLES = {
     "orbits/certificate_times": certificates_settings,
     "attractors/strobes": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
     "lyapunov/spectrum": lambda config: with_model(config, "attractors", "lyapunov", solver=FOLLOWED, normal=True),
-    "lyapunov/witnesses": lambda config: with_model(config, "attractors", "witnesses", solver=FOLLOWED, normal=True),
+    "lyapunov/witnesses": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
     "sensitivity/derivatives": derivatives_settings,
     "sensitivity/groups": derivatives_settings,
     "sensitivity/continued": curves_settings,
