@@ -22,6 +22,7 @@ BOX = {
     "settling": 2000,
     "mean_settling": 375,
     "followed": 2,
+    "cycles": shares.CYCLES,
     "model": {},
 }
 
