@@ -49,8 +49,7 @@ from .solver.trajectory import BEGIN_OF_CYCLE
 
 # Basins of attraction and their boundaries
 from .interface import Basin, basin
-from .analysis.basins.boundary_point import BoundaryPoint, InitialCondition, find_boundary_point
-from .analysis.basins.boundary_scan import count_decisions, find_crossings, select_critical
+from .analysis.basins.boundary_scan import count_decisions, find_crossings, locate_change, select_critical
 from .analysis.basins.first_impact import first_impacts, on_conveyor
 from .analysis.basins.hyperbola import Hyperbola, critical_height, mean_squared_error
 from .analysis.basins.hyperbola_fit import fit_hyperbola, fit_hyperbola_by_pymoo, hyperbola_profile
@@ -102,7 +101,9 @@ from .analysis.contact_groups import contact_of_groups, groups_of_contact
 from .analysis.dimensionless_groups import (
     GROUP_NAMES,
     GROUP_OF,
+    PARAMETER_OF,
     amplitude_of,
+    derivatives_by_groups,
     derivatives_of_groups,
     groups_of,
     length_and_speed_units,

@@ -10,18 +10,19 @@ import pandas as pd
 from conveyor import (
     GROUP_NAMES,
     GROUP_OF,
+    PARAMETER_OF,
     PARAMETERS,
     UNITS,
-    BoundaryPoint,
-    InitialCondition,
     accumulation_point,
     amplitude_of,
+    classify,
+    derivatives_by_groups,
     derivatives_of_groups,
     differentiate_unknowns,
     find_bifurcation,
-    find_boundary_point,
     groups_of,
     length_and_speed_units,
+    locate_change,
     replace_parameters,
     scaled_start,
 )
@@ -31,7 +32,7 @@ from sensitivity.selection import COLUMNS, Selected, select_bifurcations
 
 POINT = (
     fields.text("kind", "fold, period_doubling, grazing, accumulation, critical_amplitude or critical_height"),
-    fields.count("period", "excitation cycles; 0 for none"),
+    fields.count("period", "excitation cycles, of a bifurcation; 0 for none"),
     fields.number("acceleration", "m/s²", "amplitude of the excitation"),
     fields.number("z0", "m", "initial height; null for bifurcations"),
     *COLUMNS,
@@ -44,8 +45,12 @@ TABLES = {
         fields.text("parameter", "varied parameter; all remaining ones are constant"),
         fields.text("parameter_unit", "unit of the parameter"),
         fields.number("value", "see parameter_unit", "value of the parameter"),
-        fields.number("derivative", "moved_unit per parameter_unit", "derivative by the implicit function theorem"),
-        fields.number("difference", "moved_unit per parameter_unit", "finite difference between points solved again"),
+        fields.number("derivative", "moved_unit per parameter_unit", "derivative, from the derivatives by the groups"),
+        fields.number(
+            "difference",
+            "moved_unit per parameter_unit",
+            "finite difference between points solved again",
+        ),
         fields.number("elasticity", "1", "relative change of the quantity by that of the parameter; null if one is 0"),
         fields.text("status", "ok, or the reason for no result, or that both derivatives disagree"),
     ),
@@ -65,6 +70,11 @@ BIFURCATION_GROUPS, BOUNDARY_GROUPS = ("damping", "stiffness", "exponent"), GROU
 INITIAL_CONDITION = ("z0", "vz0")
 # The tension mode, which is not a number, and parameters of the motion along the track.
 EXCLUDED = ("tension", "phase_shift", "static_friction")
+# A change of state is located to this part of the amplitude or of the unit of length. It moves less than MOVE when a
+# parameter changes, and lies within REACH of the amplitudes and heights in the table.
+RESOLUTION, MOVE, REACH = 1e-14, 5e-3, {"acceleration": 0.1, "z0": 5e-3}
+BOUNDARY_TOLERANCE = 1e-13  # of the contact steps of trajectories near a boundary
+GROUP_DIFFERENCE = 1e-4  # relative change of a parameter in the differences that give derivatives of a boundary
 DIFFERENCE = 3e-5  # relative change of a parameter in the finite differences that check the derivatives
 # Largest relative difference of both results; absolute for elasticities below 1.
 AGREEMENT = 1e-5
@@ -102,14 +112,19 @@ def differentiate_bifurcation(parameters: np.ndarray, bifurcation: Selected) -> 
             quantity="acceleration",
             status="not found again" if point is None else "singular",
         )
-    derivatives = np.zeros(len(GROUP_NAMES))
-    derivatives[1:4] = moves[-1]
 
     @cache
     def find_amplitude(groups):
         guess = point.unknown + product(moves, np.array(groups[1:4]) - point.groups[1:4])
         there = find_bifurcation(bifurcation.kind, bifurcation.period, guess, groups)
         return np.nan if there is None else there.groups.amplitude
+
+    derivatives = np.zeros(len(GROUP_NAMES))
+    for name in BIFURCATION_GROUPS:
+        value = getattr(point.groups, name)
+        step = GROUP_DIFFERENCE * (value if value > 0.0 else 1.0)
+        ends = [find_amplitude(point.groups._replace(**{name: value + part})) for part in (step, -step)]
+        derivatives[GROUP_NAMES.index(name)] = (ends[0] - ends[1]) / (2.0 * step)
 
     def solve(row):
         # The amplitude is an unknown: parameters with equal other groups share a solution.
@@ -143,37 +158,51 @@ def differentiate_accumulation(parameters: np.ndarray, doublings: list[CriticalP
     return CriticalPoint("accumulation", 0, here, "acceleration", derivatives=derivatives, solve=solve)
 
 
-def differentiate_boundary(kind: str, parameters: np.ndarray, quantity: str) -> CriticalPoint:
-    """A point of a basin boundary near an initial condition, with the derivatives of its amplitude or height."""
-
-    def find_point(row):
-        return find_boundary_point(InitialCondition(*scaled_start(row)), groups_of(row), GROUP_OF[quantity])
-
-    point = find_point(parameters)
-    if isinstance(point, str):
-        return CriticalPoint(kind, 0, parameters, quantity, status=point)
-    here = replace_parameters(parameters, **{quantity: boundary_value(point, parameters, quantity)})
-
-    def solve(row):
-        there = find_point(row)
-        return np.nan if isinstance(there, str) else boundary_value(there, row, quantity)
-
-    return CriticalPoint(kind, point.period, here, quantity, derivatives=point.moves, solve=solve)
+def state_of(parameters: np.ndarray) -> np.ndarray:
+    """The states of motion of a table of parameters, shape (n,), near a boundary of their basins."""
+    return classify(parameters, tolerance=BOUNDARY_TOLERANCE).state
 
 
-def boundary_value(point: BoundaryPoint, row: np.ndarray, quantity: str) -> float:
-    """The amplitude (m/s²) or the initial height (m) of a point of a basin boundary."""
-    if quantity == "acceleration":
-        return amplitude_of(row, point.groups.amplitude)
-    return point.launch.height * length_and_speed_units(row)[0]
+def differentiate_boundary(kind: str, parameters: np.ndarray, quantity: str, reach: float) -> CriticalPoint:
+    """A point of a basin boundary near an initial condition, with the derivatives of its amplitude or height.
+
+    reach : how far the point may be from the initial condition, as a part of the amplitude or of the unit of length
+    """
+    scale = float(parameters["acceleration"]) if quantity == "acceleration" else length_and_speed_units(parameters)[0]
+
+    def solve(row, reach=MOVE):
+        return locate_change(row[None], quantity, reach * scale, state_of, RESOLUTION * scale).item()
+
+    value = solve(parameters, reach)
+    if np.isnan(value):
+        return CriticalPoint(kind, 0, parameters, quantity, status="no change of state near it")
+    here = replace_parameters(parameters, **{quantity: value})
+    steps = difference_steps(here, GROUP_DIFFERENCE)
+    by = {name: difference_quotient(solve, here, name, steps[name]) for name in PARAMETER_OF.values()}
+    derivatives = derivatives_by_groups(quantity, here, by)
+    if not np.isfinite(derivatives).all():
+        return CriticalPoint(kind, 0, here, quantity, status="not found again beside it")
+    return CriticalPoint(kind, 0, here, quantity, derivatives=derivatives, solve=solve)
 
 
-def difference_steps(parameters: np.ndarray) -> dict[str, float]:
-    """Step of the finite differences by each parameter: DIFFERENCE times its value, or its scale if it may be 0."""
+def difference_quotient(
+    function: Callable[[np.ndarray], float], parameters: np.ndarray, name: str, step: float
+) -> float:
+    """Derivative of a function of one row of parameters by one of them, by a central difference."""
+    ends = []
+    for sign in (1.0, -1.0):
+        row = parameters.copy()
+        row[name] += sign * step
+        ends.append(function(row))
+    return (ends[0] - ends[1]) / (2.0 * step)
+
+
+def difference_steps(parameters: np.ndarray, part: float) -> dict[str, float]:
+    """Step of the finite differences by each parameter: a part of its value, or of its scale if it may be 0."""
     length, velocity = length_and_speed_units(parameters)
     scales = {name: abs(float(parameters[name])) for name in PARAMETERS} | {"psi0": 1.0, "z0": length, "vz0": velocity}
     scales = {name: scale if scale > 0.0 else 1.0 for name, scale in scales.items()}
-    return {name: DIFFERENCE * float(scale) for name, scale in scales.items()}
+    return {name: part * float(scale) for name, scale in scales.items()}
 
 
 def point_columns(point: CriticalPoint) -> dict:
@@ -196,7 +225,7 @@ def physical_rows(point: CriticalPoint) -> Iterator[dict]:
     if point.derivatives is not None:
         exact = derivatives_of_groups(point.quantity, point.parameters, point.derivatives)
     moved = float(point.parameters[point.quantity])
-    for name, step in difference_steps(point.parameters).items():
+    for name, step in difference_steps(point.parameters, DIFFERENCE).items():
         value = float(point.parameters[name])
         if name in (point.quantity, *EXCLUDED) or (name in INITIAL_CONDITION and not point.is_boundary):
             continue
@@ -214,12 +243,8 @@ def physical_rows(point: CriticalPoint) -> Iterator[dict]:
             "status": point.status,
         }
         if exact is not None:
-            ends = []
-            for sign in (1.0, -1.0):
-                there = point.parameters.copy()
-                there[name] += sign * step
-                ends.append(point.solve(there))
-            row["derivative"], row["difference"] = exact[name], (ends[0] - ends[1]) / (2.0 * step)
+            row["derivative"] = exact[name]
+            row["difference"] = difference_quotient(point.solve, point.parameters, name, step)
             row["elasticity"] = exact[name] * value / moved if value != 0.0 and moved != 0.0 else np.nan
             # Makes derivatives dimensionless: scale of the parameter over scale of the quantity.
             scale = (
@@ -265,13 +290,13 @@ def boundary_points(critical: pd.DataFrame, settings: dict) -> Iterator[Critical
     rest["z0"], rest["vz0"] = settings["rest"]["z0"], settings["rest"]["vz0"]
     # The amplitude whose critical height is closest to rest is the initial guess.
     rest = replace_parameters(rest, acceleration=edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest["z0"])))])
-    yield differentiate_boundary("critical_amplitude", rest, "acceleration")
+    yield differentiate_boundary("critical_amplitude", rest, "acceleration", REACH["acceleration"])
     # Evenly spaced rows without the first and the last one.
     inner = np.linspace(0, len(edges) - 1, settings["heights"] + 2)[1:-1].round().astype(int)
     for edge in edges.iloc[np.unique(inner)].itertuples():
         here = replace_parameters(parameters, acceleration=edge.acceleration)
         here["z0"] = edge.z0
-        yield differentiate_boundary("critical_height", here, "z0")
+        yield differentiate_boundary("critical_height", here, "z0", REACH["z0"])
 
 
 def make(

@@ -12,6 +12,7 @@ An initial condition adds ψ0, z0 ω²/g and ż0 ω/g.
 """
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +26,16 @@ GROUP_NAMES = ("amplitude", "damping", "stiffness", "exponent", "height", "veloc
 AMPLITUDE, DAMPING, STIFFNESS, EXPONENT, HEIGHT, VELOCITY, PHASE = range(len(GROUP_NAMES))
 # The parameters that an equation between the groups may determine, and their groups.
 GROUP_OF = {"acceleration": AMPLITUDE, "z0": HEIGHT}
+# Parameters that move a single group, and the exponent, which also moves K and therefore comes last.
+PARAMETER_OF = {
+    AMPLITUDE: "acceleration",
+    DAMPING: "damping",
+    STIFFNESS: "stiffness",
+    HEIGHT: "z0",
+    VELOCITY: "vz0",
+    PHASE: "psi0",
+    EXPONENT: "exponent",
+}
 # A conveyor whose parameters equal its dimensionless groups: g = 1, ω = 1, m = 1, φ = 90°.
 FREQUENCY_OF_ONE = 0.5 / math.pi
 
@@ -130,11 +141,11 @@ def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
         "z0": {HEIGHT: 1.0 / length},
         "vz0": {VELOCITY: 1.0 / velocity},
     }
-    found = {name: np.zeros(len(GROUP_NAMES)) for name in by}
+    table = {name: np.zeros(len(GROUP_NAMES)) for name in by}
     for name, entries in by.items():
         for group, slope in entries.items():
-            found[name][group] = slope
-    return found
+            table[name][group] = slope
+    return table
 
 
 def derivatives_of_groups(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[str, float]:
@@ -152,3 +163,21 @@ def derivatives_of_groups(moved: str, parameters: np.ndarray, by: np.ndarray) ->
     return {
         name: float((np.sum(by * slope) - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved
     }
+
+
+def derivatives_by_groups(moved: str, parameters: np.ndarray, by: Mapping[str, float]) -> np.ndarray:
+    """Derivatives of the group of `moved` by all GROUP_NAMES, shape (7,), its own 0: the inverse of the function above.
+
+    Parameters
+    ----------
+    moved : a name in GROUP_OF
+    parameters : a row of a table of parameters, at which the equation holds
+    by : derivatives of `moved` by the other parameters in PARAMETER_OF
+    """
+    of, own = slopes(as_rows(parameters)), GROUP_OF[moved]
+    derivatives = np.zeros(len(GROUP_NAMES))
+    for group, name in PARAMETER_OF.items():
+        if group != own:
+            rest = by[name] * of[moved][own] - np.sum(derivatives * of[name])
+            derivatives[group] = rest / of[name][group]
+    return derivatives

@@ -57,13 +57,72 @@ def find_crossings(
     below, above = scan[point, left], scan[point, left + 1]
     rank = np.arange(len(point)) - np.searchsorted(point, point)
     located = (rank < MOST - 1) | select_critical(point, below)
-    while (wide := np.flatnonzero(located & (high - low > resolution))).size:
+    chosen = np.flatnonzero(located)
+    low[chosen], above[chosen] = _bisect(
+        lambda places, z0: states_at(point[chosen[places]], z0),
+        *(column[chosen] for column in (low, high, below, above)),
+        resolution,
+    )
+    return Crossings(point, low, located, below, above)
+
+
+def locate_change(
+    parameters: np.ndarray,
+    quantity: str,
+    reach: float,
+    decide: Callable[[np.ndarray], np.ndarray],
+    resolution: float,
+) -> np.ndarray:
+    """The value of a parameter at which the state changes, near its value in each row; shape (n,), by bisection.
+
+    It is NaN where the state is the same at both ends of the interval. Of several changes, bisection finds one.
+
+    Parameters
+    ----------
+    parameters : from `parameter_table`, shape (n,)
+    quantity : name of the parameter, such as z0 or acceleration
+    reach : half the width of the interval around the parameter's value in `parameters`, in the parameter's unit
+    decide : gives the state of motion, str, shape (m,), for a table of shape (m,)
+    resolution : width of the interval that encloses the change, in the parameter's unit
+
+    Examples
+    --------
+    >>> falling = parameter_table(Conveyor(acceleration=40.0), z0=[7e-5])
+    >>> height = locate_change(falling, "z0", 1e-5, lambda rows: classify(rows).state, 1e-9)
+    >>> round(height.item() * 1e6, 1)  # µm
+    71.9
+    """
+    low, high = parameters[quantity] - reach, parameters[quantity] + reach
+
+    def states_at(places, values):
+        rows = parameters[places]
+        rows[quantity] = values
+        return decide(rows)
+
+    below, above = (states_at(np.arange(len(parameters)), values) for values in (low, high))
+    changed = np.flatnonzero(below != above)
+    values = np.full(len(parameters), np.nan)
+    values[changed], _ = _bisect(
+        lambda places, middle: states_at(changed[places], middle),
+        *(column[changed] for column in (low, high, below, above)),
+        resolution,
+    )
+    return values
+
+
+def _bisect(states_at, low, high, below, above, resolution):
+    """The lower ends of intervals that enclose changes of state, narrowed to a resolution, and the states above.
+
+    states_at : gives the states of some intervals, by their places, at values of the quantity
+    low, high, below, above : ends of the intervals and the states there, shape (k,); replaced
+    """
+    while (wide := np.flatnonzero(high - low > resolution)).size:
         middle = 0.5 * (low[wide] + high[wide])
-        state = states_at(point[wide], middle)
+        state = states_at(wide, middle)
         lower = state == below[wide]
         low[wide[lower]] = middle[lower]
         high[wide[~lower]], above[wide[~lower]] = middle[~lower], state[~lower]
-    return Crossings(point, low, located, below, above)
+    return low, above
 
 
 def count_decisions(heights: np.ndarray, resolution: float) -> int:

@@ -25,19 +25,31 @@ from scipy.optimize import root
 
 from ... import linear_algebra
 from ..dimensionless_groups import Groups
-from .bifurcation_points import GRAZING, SIGNS, BifurcationPoint, derivatives, find_bifurcation, system, touching_point
-from .newton import follow_curve, newton
+from .bifurcation_points import (
+    EVALUATIONS,
+    GRAZING,
+    SIGNS,
+    TOUCHES,
+    BifurcationPoint,
+    conditions,
+    find_bifurcation,
+    linearise,
+    multiplier_test,
+    touching_point,
+)
+from .newton import difference_quotients, follow_curve, newton
 
 CONVERGED, ITERATIONS = 1e-10, 12  # last correction of Newton's iteration, and number of corrections
 FARTHEST = 1.0  # distance over which a correction may move a point
 RESOLUTION = 1e-8  # of a point of codimension two along its curve
 FIRST_STEP, SMALLEST_STEP = 1e-2, 1e-6  # arclengths
 STRAIGHT = 0.9  # cosine of the largest turn within one step
-MOST_EVALUATIONS = 60  # of the functions whose zero is a grazing
-TOUCHES = 1e-8  # largest value of these functions at a grazing
 NEARBY = 1e-2  # a grazing within this distance of the end of a curve, in log Γ and λ, ends the curve
 SMALL = 1e-3  # ratio of the test at a cusp or generalised doubling to the tests at the neighbouring points
-SIDESTEP = 1e-4  # of the difference quotient of second derivatives along r
+# Step of difference quotients in the unknowns; small, because curves reach conveyors whose map bends strongly.
+DIFFERENCE = 3e-8
+BENDING = 3e-7  # of the difference quotient of M, in (x, y)
+SIDESTEP = 1e-4  # of the second difference of M along r, in (x, y), where the map bends as much as its unit
 
 
 class CurveEnd(StrEnum):
@@ -100,20 +112,20 @@ class CurveEquations:
         groups = self.groups(unknown)
         return BifurcationPoint(self.kind, self.period, np.append(unknown[:2], groups.amplitude), groups)
 
+    def conditions(self, unknown: np.ndarray) -> np.ndarray:
+        """The three functions, NaN where the motion is lost."""
+        groups = self.groups(unknown)
+        return conditions(self.kind, self.period, np.append(unknown[:2], groups.amplitude), groups)
+
     def system(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
         """The three functions and their derivatives by the unknowns, shape (3, 4)."""
-        groups = self.groups(unknown)
-        evaluated = system(self.kind, self.period, np.append(unknown[:2], groups.amplitude), groups)
-        if evaluated is None:
+        value = self.conditions(unknown)
+        if not np.isfinite(value).all():
             return None
-        by_path = (
-            evaluated[1][:, 3] * self.path.damping * groups.damping
-            + evaluated[1][:, 4] * self.path.stiffness * groups.stiffness
-        )
-        jacobian = np.column_stack([evaluated[1][:, :2], evaluated[1][:, 2] * groups.amplitude, by_path])
+        jacobian = difference_quotients(self.conditions, unknown, DIFFERENCE)
         # The third function, alone, grows with the multipliers.
         scale = np.append(np.ones(2), max(1.0, linear_algebra.length(jacobian[2])))
-        return evaluated[0] / scale, jacobian / scale[:, None]
+        return value / scale, jacobian / scale[:, None]
 
     def tangent(self, unknown: np.ndarray, previous: np.ndarray) -> np.ndarray | None:
         """Unit vector along the curve, at an acute angle to `previous`; None where the motion is lost."""
@@ -128,8 +140,7 @@ class CurveEquations:
 
     def halving(self, unknown: np.ndarray) -> np.ndarray:
         """(x, y) half a period later minus (x, y); the difference passes zero where the orbit's period halves."""
-        expansion = derivatives(self.groups(unknown), unknown[:2], self.period)
-        return expansion.states[self.period // 2 - 1] - unknown[:2]
+        return linearise(self.groups(unknown), unknown[:2], self.period // 2).image - unknown[:2]
 
 
 def eigenvectors(matrix: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarray]:
@@ -139,11 +150,6 @@ def eigenvectors(matrix: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarra
     return right, left / linear_algebra.dot(left, right)
 
 
-def twice(second: np.ndarray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Second derivatives of (x, y) along two directions of (x, y), shape (2,)."""
-    return linear_algebra.product(linear_algebra.product(second[:, :, :2], one), other)
-
-
 def normal_form(point: BifurcationPoint, along: np.ndarray) -> tuple[float, np.ndarray]:
     """The coefficient whose zero is a cusp or a generalised doubling (Kuznetsov 2004, Sect. 5.4), and r.
 
@@ -151,20 +157,28 @@ def normal_form(point: BifurcationPoint, along: np.ndarray) -> tuple[float, np.n
     coefficient, which is positive in the supercritical case: the doubled orbit is then stable if the single orbit was.
     """
     state = point.unknown[:2]
-    expansion = derivatives(point.groups, state, point.period)
-    matrix = expansion.first[:, :2]
+    matrix = linearise(point.groups, state, point.period).matrix
     right, left = eigenvectors(matrix, SIGNS[point.kind])
     if linear_algebra.dot(right, along) < 0.0:
         right, left = -right, -left
-    bent = twice(expansion.second, right, right)
+
+    def change(step):
+        """The change of M r at the state a step aside, shape (2,)."""
+        aside = linearise(point.groups, state + step, point.period)
+        return np.full(2, np.nan) if aside is None else linear_algebra.product(aside.matrix - matrix, right)
+
+    def bend(direction):
+        """Second derivatives of (x, y) along r and a direction, shape (2,)."""
+        part = BENDING / linear_algebra.length(direction)
+        return (change(part * direction) - change(-part * direction)) / (2.0 * part)
+
+    bent = bend(right)
     if point.kind == "fold":
         return float(0.5 * linear_algebra.dot(left, bent)), right
-    aside = [derivatives(point.groups, state + part * SIDESTEP * right, point.period) for part in (1.0, -1.0)]
-    if any(one is None for one in aside):
-        return float("nan"), right
-    third = twice(aside[0].second - aside[1].second, right, right) / (2.0 * SIDESTEP)
-    follow = linear_algebra.solve(np.eye(2) - matrix, bent)
-    return float(linear_algebra.dot(left, third / 6.0 + 0.5 * twice(expansion.second, follow, right))), right
+    sidestep = SIDESTEP / max(1.0, linear_algebra.length(bent))
+    third = (change(sidestep * right) + change(-sidestep * right)) / sidestep**2
+    following = linear_algebra.solve(np.eye(2) - matrix, bent)
+    return float(linear_algebra.dot(left, third / 6.0 + 0.5 * bend(following))), right
 
 
 def follow_bifurcation_curve(
@@ -201,7 +215,7 @@ def follow_bifurcation_curve(
         form, right = normal_form(one, rights[-1])
         forms.append(form)
         rights.append(right)
-    impacts = np.array([derivatives(one.groups, one.unknown[:2], one.period).impacts for one in points])
+    impacts = np.array([linearise(one.groups, one.unknown[:2], one.period).impacts for one in points])
     meetings = list(_meetings(equations, unknowns, forms, rights[1:], impacts, (first, last)))
     return BifurcationCurve(
         points, np.array([unknown[3] for unknown in unknowns]), np.array(forms), impacts, meetings, (first, last)
@@ -306,17 +320,14 @@ def _grazings(equations, begin, end, status):
 
     def functions(guess):
         groups = equations.groups(np.append(np.zeros(2), guess[1:]))
-        expansion = derivatives(groups, np.zeros(2), equations.period, guess[0])
-        if expansion is None:
-            return np.full(3, np.nan)
-        matrix, sign = expansion.first[:, :2], SIGNS[equations.kind]
-        return np.append(expansion.image, 1.0 - sign * np.trace(matrix) + linear_algebra.determinant(matrix))
+        touch = linearise(groups, np.zeros(2), equations.period, guess[0])
+        return np.full(3, np.nan) if touch is None else np.append(touch.image, multiplier_test(equations.kind, touch))
 
     for near in (end, begin):
         phase = touching_point(equations.groups(near), near[:2], equations.period)
         if phase is None:
             continue
-        solution = root(functions, np.append(phase[0], near[2:]), tol=CONVERGED, options={"maxfev": MOST_EVALUATIONS})
+        solution = root(functions, np.append(phase[0], near[2:]), tol=CONVERGED, options={"maxfev": EVALUATIONS})
         if np.abs(solution.fun).max() < TOUCHES and np.abs(solution.x[1:] - near[2:]).max() < 2.0 * max(
             np.abs(end - begin).max(), NEARBY
         ):

@@ -1,33 +1,38 @@
-"""Folds, period doublings and grazings in the dimensionless groups, and their derivatives, as implicit functions.
+"""Folds, period doublings and grazings in the dimensionless groups, as implicit functions.
 
 A fold or a doubling of an orbit of n cycles is a zero of three functions of the state X = (x, y) and Γ,
 
     Pⁿ(X) - X = 0,   1 ∓ tr M + det M = 0   (a multiplier ±1),
 
 A grazing is a zero of two functions of Γ and the phase ψ at which the orbit touches the surface of the plate,
-Pⁿ(0) = 0. The derivatives of these functions by X, Γ, D, K and p come from second_derivatives, without differences.
+Pⁿ(0) = 0. Difference quotients give the derivatives of these functions.
 """
 
 import math
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
+from scipy.optimize import root
 
 from ... import linear_algebra
 from ...packing import as_rows
 from ...solver import contact
 from ...solver.model import PSI0
 from ...solver.trajectory import OK
-from .. import second_derivatives, stroboscopic_map
+from .. import stroboscopic_map
 from ..dimensionless_groups import Groups, groups_of, length_and_speed_units, packed
-from .newton import newton
+from .newton import difference_quotients, newton
 
 TOLERANCE = 1e-14
-# Newton's iteration: its last correction; the size and number of corrections that no longer shrink and therefore are
-# round-off (at a grazing their size alternates, because the solver sees the touch or not); the number of corrections.
-CONVERGED, STAGNANT, OFTEN = 1e-12, 1e-7, 4
+# Newton's iteration: its last correction, the size below which a correction that does not shrink is round-off, and the
+# number of corrections.
+CONVERGED, STAGNANT = 1e-12, 1e-7
 ITERATIONS = 30
+# Evaluations of the functions whose zero is a grazing, and their largest value at a grazing.
+EVALUATIONS, TOUCHES = 60, 1e-8
 FARTHEST = 10.0
+DIFFERENCE = 3e-6  # step of difference quotients, in the unknowns
 # Moments of an orbit at which a touch is looked for.
 MOMENTS = 1000
 
@@ -35,13 +40,11 @@ SIGNS = {"fold": 1.0, "period_doubling": -1.0}
 GRAZING = "grazing"
 
 
-class Derivatives(NamedTuple):
-    """Pⁿ of the scaled state (x, y) and its derivatives by the first k of x, y, Γ, D, K and p."""
+class Linearisation(NamedTuple):
+    """Pⁿ at a scaled state (x, y), and its derivative."""
 
     image: np.ndarray  # shape (2,)
-    first: np.ndarray  # shape (2, k)
-    second: np.ndarray  # shape (2, 2, k), of first[:, :2]
-    states: np.ndarray  # (x, y) after each cycle, shape (n, 2)
+    matrix: np.ndarray  # ∂Pⁿ/∂(x, y), shape (2, 2)
     impacts: int  # of all cycles
 
 
@@ -54,27 +57,14 @@ class BifurcationPoint(NamedTuple):
     groups: Groups  # with Γ
 
 
-def derivatives(
-    groups: Groups, state: np.ndarray, period: int, psi0: float = 0.0, *, exponent: bool = False
-) -> Derivatives | None:
-    """The image of a scaled state (x, y) at the phase ψ0 and its derivatives, or None where the motion is lost.
-
-    exponent : whether to compute the derivatives by p, which take several times as long
-    """
-    count = second_derivatives.QUANTITIES if exponent else second_derivatives.EXPONENT
-    begin = velocity_for_y(groups, np.array(state, dtype=np.float64))
-    cycles = second_derivatives.cycles(packed(groups, psi0), TOLERANCE, begin, period, count)
-    status, first, second, states, impacts = cycles
+def linearise(groups: Groups, state: np.ndarray, period: int, psi0: float = 0.0) -> Linearisation | None:
+    """The image of a scaled state (x, y) at the phase ψ0 after `period` cycles, or None where the motion is lost."""
+    here = velocity_for_y(groups, np.array(state, dtype=np.float64))
+    status, matrices, features = stroboscopic_map.monodromy(packed(groups, psi0), TOLERANCE, here, period, 0.0)
     if status != OK:
         return None
-    states[:, 1] += groups.damping * np.maximum(states[:, 0], 0.0)
-    # The chain rule for the derivatives of (x, y, Γ, D, K, p) by their values at the beginning.
-    whole, bent = np.eye(count), np.zeros((2, 2, count))
-    for of_one, of_two in zip(first, second, strict=True):
-        along = linear_algebra.product(linear_algebra.product(whole[:2, :2].T, of_two), whole)
-        bent = sum(of_one[:, k, None, None] * bent[k] for k in range(2)) + along
-        whole[:2] = linear_algebra.product(of_one, whole)
-    return Derivatives(states[-1], whole[:2].copy(), bent, states, int(impacts.sum()))
+    matrix = reduce(lambda whole, following: linear_algebra.product(following, whole), matrices)
+    return Linearisation(y_for_velocity(groups, here), matrix, int(features[:, stroboscopic_map.IMPACTS].sum()))
 
 
 def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | None:
@@ -89,7 +79,12 @@ def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | Non
         status = stroboscopic_map.advance(c, contact.workspace(), here, psi0, remaining, no_tangent, features)
         if status != OK:
             return None
-    return np.array([here[0], here[1] + groups.damping * max(here[0], 0.0)])
+    return y_for_velocity(groups, here)
+
+
+def y_for_velocity(groups: Groups, state: np.ndarray) -> np.ndarray:
+    """Scaled (x, y) of (x, ẋ)."""
+    return np.array([state[0], state[1] + groups.damping * max(state[0], 0.0)])
 
 
 def velocity_for_y(groups: Groups, state: np.ndarray) -> np.ndarray:
@@ -97,74 +92,69 @@ def velocity_for_y(groups: Groups, state: np.ndarray) -> np.ndarray:
     return np.array([state[0], state[1] - groups.damping * max(state[0], 0.0)])
 
 
-def system(
-    kind: str, period: int, unknown: np.ndarray, groups: Groups, *, exponent: bool = False
-) -> tuple[np.ndarray, np.ndarray] | None:
-    """The functions whose zero is a bifurcation, shape (k,), and their derivatives by its k unknowns, D, K (and p)."""
+def conditions(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> np.ndarray:
+    """The functions whose zero is a bifurcation, as many as it has unknowns; NaN where the motion is lost."""
+    here = groups._replace(amplitude=float(unknown[-1]))
     if kind == GRAZING:
-        return touch_system(period, unknown, groups, exponent=exponent)
-    here = groups._replace(amplitude=float(unknown[2]))
-    expansion = derivatives(here, unknown[:2], period, exponent=exponent)
-    if expansion is None:
-        return None
-    matrix = expansion.first[:, :2]
-    trace = expansion.second[0, 0] + expansion.second[1, 1]
-    determinant = (
-        expansion.second[0, 0] * matrix[1, 1]
-        + expansion.second[1, 1] * matrix[0, 0]
-        - expansion.second[0, 1] * matrix[1, 0]
-        - expansion.second[1, 0] * matrix[0, 1]
-    )
-    test = 1.0 - SIGNS[kind] * np.trace(matrix) + linear_algebra.determinant(matrix)
-    jacobian = np.vstack([expansion.first - np.eye(2, expansion.first.shape[1]), determinant - SIGNS[kind] * trace])
-    return np.append(expansion.image - unknown[:2], test), jacobian
+        touch = linearise(here, np.zeros(2), period, float(unknown[0]))
+        return np.full(2, np.nan) if touch is None else touch.image
+    cycle = linearise(here, unknown[:2], period)
+    return np.full(3, np.nan) if cycle is None else np.append(cycle.image - unknown[:2], multiplier_test(kind, cycle))
 
 
-def touch_system(
-    period: int, unknown: np.ndarray, groups: Groups, *, exponent: bool = False
-) -> tuple[np.ndarray, np.ndarray] | None:
-    """The state n cycles after a part touches the plate at relative rest, and its derivatives by ψ, Γ, D, K (and p)."""
-    psi, amplitude = (float(value) for value in unknown)
-    here = groups._replace(amplitude=amplitude)
-    expansion = derivatives(here, np.zeros(2), period, psi, exponent=exponent)
-    if expansion is None:
-        return None
-    # A change of ψ shifts the end of the motion, and its beginning.
-    press = 1.0 + amplitude * math.cos(psi)
-    x, y = expansion.image
-    end = np.array([y - groups.damping * max(x, 0.0), press - groups.stiffness * max(x, 0.0) ** groups.exponent])
-    by_phase = end - expansion.first[:, 1] * press
-    return expansion.image, np.column_stack([by_phase, expansion.first[:, 2:]])
+def multiplier_test(kind: str, cycle: Linearisation) -> float:
+    """1 ∓ tr M + det M, which is 0 where a multiplier is +1 (fold) or -1 (period doubling)."""
+    return 1.0 - SIGNS[kind] * np.trace(cycle.matrix) + linear_algebra.determinant(cycle.matrix)
 
 
 def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> BifurcationPoint | None:
-    """The bifurcation that Newton's iteration finds from a guess, or None.
+    """The bifurcation near a guess of its unknowns, or None.
 
     Parameters
     ----------
     kind : fold, period_doubling or grazing
     period : excitation cycles of the orbit
-    unknown : guess of the unknowns, see Point
+    unknown : guess of the unknowns, see BifurcationPoint
     groups : of the conveyor; Γ does not matter, because it is an unknown
     """
 
-    def by_unknowns(here):
-        evaluated = system(kind, period, here, groups)
-        return None if evaluated is None else (evaluated[0], evaluated[1][:, : len(here)])
+    def functions(here):
+        return conditions(kind, period, here, groups)
 
-    limits = {"largest": FARTHEST, "stagnant": STAGNANT, "often": OFTEN}
-    here = newton(by_unknowns, unknown, converged=CONVERGED, iterations=ITERATIONS, **limits)
+    def system(here):
+        value = functions(here)
+        return (value, difference_quotients(functions, here, DIFFERENCE)) if np.isfinite(value).all() else None
+
+    if kind == GRAZING:
+        # Derivatives jump at a touch. Newton's iteration may alternate between both sides, Broyden's method does not.
+        solution = root(functions, unknown, tol=CONVERGED, options={"maxfev": EVALUATIONS})
+        here = solution.x if np.abs(solution.fun).max() < TOUCHES else None
+    else:
+        limits = {"iterations": ITERATIONS, "largest": FARTHEST, "stagnant": STAGNANT}
+        here = newton(system, unknown, converged=CONVERGED, **limits)
     return None if here is None else BifurcationPoint(kind, period, here, groups._replace(amplitude=float(here[-1])))
 
 
 def differentiate_unknowns(point: BifurcationPoint) -> np.ndarray | None:
     """Derivatives of the unknowns of a bifurcation by D, K and p, shape (k, 3), by the implicit function theorem.
 
-    The last row is that of Γ. None where the system is singular (a codimension-two point) or cannot be evaluated.
+    They serve to guess the unknowns for other groups: they have four correct digits in short orbits, and fewer in long
+    ones. The last row is that of Γ. None where the system is singular (a codimension-two point) or cannot be evaluated.
     """
-    evaluated = system(point.kind, point.period, point.unknown, point.groups, exponent=True)
-    count = len(point.unknown)
-    return None if evaluated is None else linear_algebra.solve(evaluated[1][:, :count], -evaluated[1][:, count:])
+    values = np.array(point.groups[1:4])
+    scales = np.where(values > 0.0, values, 1.0)
+
+    def with_groups(ratios):
+        damping, stiffness, exponent = (float(value) for value in values + scales * ratios)
+        changed = point.groups._replace(damping=damping, stiffness=stiffness, exponent=exponent)
+        return conditions(point.kind, point.period, point.unknown, changed)
+
+    by_unknowns = difference_quotients(
+        lambda here: conditions(point.kind, point.period, here, point.groups), point.unknown, DIFFERENCE
+    )
+    by_groups = difference_quotients(with_groups, np.zeros(3), DIFFERENCE) / scales
+    is_finite = np.isfinite(by_unknowns).all() and np.isfinite(by_groups).all()
+    return linear_algebra.solve(by_unknowns, -by_groups) if is_finite else None
 
 
 def touching_point(groups: Groups, state: np.ndarray, period: int) -> np.ndarray | None:

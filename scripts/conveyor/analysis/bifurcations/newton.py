@@ -12,6 +12,21 @@ LONGER = 1.2
 GROWTH = 1.3  # of the step after a success
 
 
+def difference_quotients(functions: Callable[[np.ndarray], np.ndarray], here: np.ndarray, step: float) -> np.ndarray:
+    """Derivatives of k functions by n unknowns, by central differences of a step, shape (k, n).
+
+    Their error slows Newton's iteration a little, and changes no zero.
+    """
+
+    def quotient(place):
+        ahead, behind = here.copy(), here.copy()
+        ahead[place] += step
+        behind[place] -= step
+        return (functions(ahead) - functions(behind)) / (ahead[place] - behind[place])
+
+    return np.column_stack([quotient(place) for place in range(len(here))])
+
+
 def newton(
     system: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray] | None],
     guess: np.ndarray,
@@ -22,7 +37,6 @@ def newton(
     largest: float = math.inf,
     farthest: float = math.inf,
     stagnant: float = 0.0,
-    often: int = 1,
 ) -> np.ndarray | None:
     """The zero that Newton's iteration finds from a guess, shape (k,), or None.
 
@@ -33,9 +47,9 @@ def newton(
     converged : largest component of the last step
     iterations : after which the search gives up
     largest, farthest : the component of a step, and the distance from the guess, at which the search gives up
-    stagnant, often : steps below `stagnant` that no longer shrink are round-off; `often` such steps end the search
+    stagnant : a step below this that no longer shrinks is round-off, and ends the search
     """
-    here, size, stalls = np.array(guess, dtype=np.float64), math.inf, 0
+    here, size = np.array(guess, dtype=np.float64), math.inf
     for _ in range(iterations):
         evaluated = system(here)
         if evaluated is None:
@@ -50,8 +64,7 @@ def newton(
         previous, size = size, np.abs(step).max()
         if not (size < largest and length(here - guess) < farthest):
             return None
-        stalls += previous < stagnant and size > 0.1 * previous
-        if size < converged or stalls == often:
+        if size < converged or (previous < stagnant and size > 0.1 * previous):
             return here
     return None
 

@@ -102,3 +102,14 @@ def test_the_paper_s_critical_heights():
         rows = parameters.copy()
         rows["z0"] = found.height + offset
         assert (labels.classify(rows, tolerance=1e-10).state == state).all()
+
+
+@pytest.mark.parametrize("resolution", [1e-6, 1e-9])
+def test_a_change_is_located_in_any_parameter(resolution):
+    """The boundary of `monotone` is z0 â = 4e-3 m²/s²; the last interval has no change."""
+    rows = conveyors(20.0, 40.0, 40.0)
+    rows["z0"] = 1.9e-4, 1.01e-4, 2e-4
+    heights = boundary_scan.locate_change(rows, "z0", 2e-5, monotone, 1e-6 * resolution)
+    np.testing.assert_allclose(heights, [2e-4, 1e-4, np.nan], atol=1e-6 * resolution)
+    amplitudes = boundary_scan.locate_change(rows, "acceleration", 2.0, monotone, resolution)
+    np.testing.assert_allclose(amplitudes, [4e-3 / 1.9e-4, 4e-3 / 1.01e-4, np.nan], atol=resolution)

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
-from conveyor.analysis.basins.boundary_point import find_fixed_point
 from conveyor.analysis.bifurcations import bifurcation_curves
 from conveyor.analysis.bifurcations.bifurcation_curves import (
     ParameterPath,
@@ -14,7 +13,8 @@ from conveyor.analysis.bifurcations.bifurcation_curves import (
     follow_grazing_curve,
     normal_form,
 )
-from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, SIGNS, derivatives, find_bifurcation
+from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, SIGNS, find_bifurcation, linearise
+from conveyor.analysis.bifurcations.newton import newton
 from conveyor.analysis.dimensionless_groups import Groups, groups_of
 from conveyor.solver.model import pack
 
@@ -22,6 +22,14 @@ GROUPS = groups_of(pack(Conveyor(), Start()))
 FOLD, DOUBLING = (-3.41, 1.614, 0.50815), (-6.257, 0.5009, 1.1491)
 LIMITS = {"amplitude": (0.1, 5.0), "longest_step": 0.1, "most": 400}
 ALONG = np.array([1.0, 0.0])
+
+
+def fixed_point(groups, state, period):
+    def system(here):
+        cycles = linearise(groups, here, period)
+        return cycles.image - here, cycles.matrix - np.eye(2)
+
+    return newton(system, state, converged=1e-10, iterations=30)
 
 
 @pytest.fixture(scope="module")
@@ -47,9 +55,9 @@ def test_every_point_of_a_curve_is_a_bifurcation(kind, path):
     assert curve.ends == ("limit", "limit")
     assert np.ptp(curve.log_ratios) > 1.0
     for one, part in zip(curve.points[::4], curve.log_ratios[::4], strict=True):
-        found = derivatives(one.groups, one.unknown[:2], 1)
-        assert found.image == pytest.approx(one.unknown[:2], abs=1e-9)
-        multipliers = np.linalg.eigvals(found.first[:, :2])
+        cycle = linearise(one.groups, one.unknown[:2], 1)
+        assert cycle.image == pytest.approx(one.unknown[:2], abs=1e-9)
+        multipliers = np.linalg.eigvals(cycle.matrix)
         assert np.abs(multipliers - SIGNS[kind]).min() < 1e-7
         assert one.groups.damping == pytest.approx(GROUPS.damping * np.exp(path.damping * part))
         assert one.groups.stiffness == pytest.approx(GROUPS.stiffness * np.exp(path.stiffness * part))
@@ -113,10 +121,10 @@ def test_normal_form_gives_the_distance_of_the_doubled_orbit():
     point = find_bifurcation("period_doubling", 1, DOUBLING, GROUPS)
     coefficient, right = normal_form(point, ALONG)
     groups = point.groups._replace(amplitude=point.groups.amplitude * (1.0 + 1e-5))
-    single = find_fixed_point(groups, point.unknown[:2], 1, 0.0)
-    multiplier = np.linalg.eigvals(derivatives(groups, single, 1).first[:, :2]).real.min()
+    single = fixed_point(groups, point.unknown[:2], 1)
+    multiplier = np.linalg.eigvals(linearise(groups, single, 1).matrix).real.min()
     distance = np.sqrt((-1.0 - multiplier) / coefficient)
-    doubled = find_fixed_point(groups, single + distance * right, 2, 0.0)
+    doubled = fixed_point(groups, single + distance * right, 2)
     assert abs((doubled - single) @ right) == pytest.approx(distance, rel=0.03)
 
 
