@@ -1,6 +1,7 @@
 """Small calibrations of synthetic measurements."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -15,6 +16,7 @@ from calibration.inference import (
     OPEN,
     agree,
     data_of,
+    search,
     summarize_parameters,
 )
 from calibration.measurements import parse
@@ -61,6 +63,14 @@ def measured(factor=1.0, **undeclared):
     rows = measure(MODEL | CONTACT | undeclared, AMPLITUDES, SETTINGS, 0.02, np.random.default_rng(4), duration=0.3)
     rows = [(one, velocity * (factor if place % 2 else 1.0)) for place, (one, velocity) in enumerate(rows)]
     return parse(csv_text(rows, "synthetic", duration=0.3, before=0.3), "mine.csv", SETTINGS, RANGES)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def two_searches():
+    """Two searches are enough here: how many agree is tested with made-up samples."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("calibration.calibrate.search", partial(search, searches=(2, 2)))
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -152,10 +162,11 @@ def test_a_parameter_that_the_measurements_state_is_no_alternative():
     assert compare_alternatives(None, data, SETTINGS | {"alternatives": {"inclination": 0.2}}) == []
 
 
-def test_results_do_not_depend_on_the_threads(found):
-    again = calibrate(measured(), SETTINGS, threads=1)
-    for name in found:
-        pd.testing.assert_frame_equal(pd.DataFrame(found[name]), pd.DataFrame(again[name]), check_exact=True)
+def test_results_do_not_depend_on_the_threads():
+    short = SETTINGS | {"first": 40, "points": 20, "rounds": 2, "checked": 2}
+    one, two = (calibrate(measured(), short, threads=threads) for threads in (1, 2))
+    for name in one:
+        pd.testing.assert_frame_equal(pd.DataFrame(one[name]), pd.DataFrame(two[name]), check_exact=True)
 
 
 def test_the_prediction_covers_the_measured_amplitudes_and_the_next_measurement_lies_near(found):

@@ -65,8 +65,9 @@ OWN |= {"parameters": list(TRUE_CONTACT)}
 
 
 @pytest.mark.parametrize(("friction", "is_open"), [(0.25, True), (0.9, False)])
-def test_distant_samples_are_compared_with_the_true_parameters(friction, is_open):
+def test_distant_samples_are_compared_with_the_true_parameters(friction, is_open, monkeypatch):
     """The measurements hardly depend on a slightly larger damping, but on a much larger friction."""
+    monkeypatch.setattr(study, "MANY", 256)
     rows = measure(MODEL | TRUE_CONTACT, [20.0, 22.0, 24.0, 26.0], BOX, 0.02, np.random.default_rng(4), duration=0.1)
     text = csv_text(rows, "synthetic", duration=0.1, before=0.1)
     data = data_of(parse(text, "mine.csv", OWN, RANGES), MODEL)

@@ -1,9 +1,6 @@
 """Article, site and README: all numbers come from tables, and a page that cannot be made says why."""
 
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -198,31 +195,6 @@ def test_a_broken_link_is_an_error(source, tmp_path):
     put(source, "# A page\n\n[there](nowhere.md)\n")
     with pytest.raises(RuntimeError, match=r"nowhere\.md"):
         site.build(str(source), str(tmp_path / "html"))
-
-
-DOCUMENT = """
-import sys
-from docs import site
-site.build(*sys.argv[1:])
-"""
-
-
-def test_all_docstrings_of_the_library_can_be_read(source, tmp_path):
-    """In a separate process, because the documentation needs the uncompiled functions."""
-    files = sorted((ROOT / "scripts/conveyor").rglob("*.py"))
-    modules = [".".join(file.relative_to(ROOT / "scripts").with_suffix("").parts) for file in files]
-    directives = [f".. automodule:: {name}\n   :members:\n" for name in modules if not name.endswith("__init__")]
-    put(source, "# The library\n\n```{eval-rst}\n" + "\n".join(directives) + "```\n")
-    run = subprocess.run(
-        [sys.executable, "-c", DOCUMENT, str(source), str(tmp_path / "html")],
-        env=os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": str(ROOT / "scripts")},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    assert run.returncode == 0, run.stdout
-    page = (tmp_path / "html/index.html").read_text(encoding="utf-8")
-    assert "simulate" in page and "next_impact" in page
 
 
 def test_formulas_need_no_network(source, tmp_path):

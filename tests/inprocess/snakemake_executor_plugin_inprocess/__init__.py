@@ -47,7 +47,7 @@ class Executor(RealExecutor):
                     sys.path.insert(0, str(script.parent))
                 for file in (*job.output, *job.log, job.benchmark):
                     Path(file).parent.mkdir(parents=True, exist_ok=True)
-                Path(job.benchmark).write_text("s\n0.0\n")
+                Path(job.benchmark).write_text("s\tmax_rss\n0.0\t0.0\n")
                 if script.name == "draw.py" and "QUICK_FIGURES" in os.environ:
                     importlib.import_module("figures.style").save = save_quickly
                 given = SimpleNamespace(rule=job.rule.name, **{name: getattr(job, name) for name in GIVEN})
