@@ -41,3 +41,6 @@ SECTIONS = {
     "claims": Annotated[dict[NameOfClaim, Claim], Field(description="claims of the paper")],
     "uncertainty": Annotated[Uncertainty, Field(description="check of the claims with tighter tolerances")],
 }
+
+# The tables that are not entries, and the function that returns the settings of each.
+TABLE_SETTINGS = {"results/claims": lambda config: {"claims": config["claims"]}}

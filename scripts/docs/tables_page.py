@@ -1,52 +1,25 @@
 """The page of all tables: columns, units and meanings, from the schemas of the stages."""
 
+import importlib
+import pkgutil
+from types import ModuleType
+
 import pyarrow as pa
 
-from accuracy import (
-    benchmark,
-    map_check,
-    precision,
-    reference_check,
-    rigid_part,
-    scene_budget,
-    settling_times,
-    stability,
-    stability_estimates,
-    theory,
-)
-from calibration import calibrate, prediction, study_table
-from claims import verdicts
-from dimensions import portraits
-from excitation import clean_drive, comparison, measure
-from fit import regressions
-from identification import edges, posterior
-from motion import critical, impacts, signals, spectra
-from operating import advice, drift, drive, shares, throws, track, transit
-from orbits import branches, certified, estimates, exponents, strobes, witnesses
 from pipeline import fields
 from pipeline.templates import render
-from sensitivity import curves, derivatives
-from sweeps import shards
+from workflow.config.files import STAGES
 from workflow.config.tables import TABLES
 
-# All modules that make tables, by stage.
-MODULES = {
-    "sweeps": [shards],
-    "motion": [signals, spectra, impacts, critical],
-    "orbits": [branches, strobes, exponents, estimates, witnesses, certified],
-    "dimensions": [portraits],
-    "fit": [regressions],
-    "sensitivity": [derivatives, curves],
-    "operating": [shares, transit, drift, advice, throws, track, drive],
-    "excitation": [measure, comparison, clean_drive],
-    "calibration": [calibrate, prediction, study_table],
-    "accuracy": [
-        *(benchmark, precision, reference_check, stability, stability_estimates),
-        *(scene_budget, rigid_part, theory, map_check, settling_times),
-    ],
-    "claims": [verdicts],
-    "identification": [edges, posterior],
-}
+WITHOUT_TABLES = ("figures", "docs")
+
+
+def modules_of(stage: str) -> list[ModuleType]:
+    """The modules of a stage that make tables, in the order of their names."""
+    names = [found.name for found in pkgutil.iter_modules(importlib.import_module(stage).__path__)]
+    # Settings are modules of the workflow, and have other relative imports.
+    modules = [importlib.import_module(f"{stage}.{name}") for name in names if name != "settings"]
+    return [module for module in modules if hasattr(module, "TABLES")]
 
 
 def file_of(kind: str, stage: str = "") -> str:
@@ -73,10 +46,11 @@ def make(template: str) -> str:
     stages = {
         stage: [
             {"kind": kind, "file": file_of(kind, stage), "columns": [describe(column) for column in schema]}
-            for module in modules
+            for module in modules_of(stage)
             for kind, schema in module.TABLES.items()
         ]
-        for stage, modules in MODULES.items()
+        for stage in STAGES
+        if stage not in WITHOUT_TABLES
     }
     axes = [describe(column) for column in fields.AXES.values()]
     return render(template, {"stages": stages, "axes": axes})

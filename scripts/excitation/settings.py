@@ -1,10 +1,12 @@
 """Settings of the stage excitation: the measured drive and drives with one harmonic, with units and ranges."""
 
+from operator import itemgetter
 from typing import Annotated, NotRequired
 
 from pydantic import Field
 from typing_extensions import TypedDict
 
+from ..operating.settings import transit_settings
 from ..pipeline.settings import Acceleration, Line, check_ascending, many, mapping, number, whole, word
 
 
@@ -35,3 +37,28 @@ SECTIONS = {
     "excitation": Annotated[Excitation, Field(description="the drive from an accelerometer file")],
     "clean_drive": Annotated[CleanDrive, Field(description="transit on drives with one harmonic")],
 }
+
+
+def comparison_settings(config: dict) -> dict:
+    """The parts of the transit table, on the measured drive."""
+    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
+    measured = ("frequency", "angle", "phase_shift", "harmonics")
+    model = {name: value for name, value in transit["model"].items() if name not in measured}
+    return {**transit, "model": model, "matters": config["clean_drive"]["matters"]}
+
+
+def clean_drive_settings(config: dict) -> dict:
+    """The parts of the transit table, on drives with one harmonic."""
+    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
+    return {**transit, **config["clean_drive"]}
+
+
+# The tables that are not entries, and the function that returns the settings of each.
+EXCITATION_TABLES = ("parameters", "harmonics", "quality", "samples", "waveform", "spectrum")
+TABLE_SETTINGS = {
+    **dict.fromkeys((f"excitation/{name}" for name in EXCITATION_TABLES), itemgetter("excitation")),
+    "excitation/comparison": comparison_settings,
+    "excitation/clean_drive": clean_drive_settings,
+}
+# Tables that only an explicit target makes.
+ON_REQUEST = (*(f"excitation/{name}" for name in EXCITATION_TABLES), "excitation/comparison")

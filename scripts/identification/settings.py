@@ -1,5 +1,6 @@
 """Settings of the stage identification, with units and ranges, and what its tables need of other sections."""
 
+from functools import partial
 from typing import Annotated
 
 from pydantic import Field
@@ -7,6 +8,7 @@ from typing_extensions import TypedDict
 
 from ..conveyor import DESCRIPTIONS
 from ..pipeline.settings import interval, number
+from ..pipeline.table_settings import model_of
 
 
 class Searched(TypedDict):
@@ -80,3 +82,13 @@ def measured_quantities(config: dict) -> dict:
         "critical": {name: config["claims"][name]["settings"]["acceleration"] for name in ("C07", "C08")},
         "triple": fit["paper"],
     }
+
+
+def identification_table_settings(table: str, config: dict) -> dict:
+    return identification_settings(config, table, model_of(config, normal=table == "edges"))
+
+
+# The tables that are not entries, and the function that returns the settings of each.
+TABLE_SETTINGS = {
+    f"identification/{name}": partial(identification_table_settings, name) for name in ("edges", *POSTERIOR)
+}

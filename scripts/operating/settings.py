@@ -1,5 +1,7 @@
 """Settings of the stage operating: where to run a conveyor, with units and ranges."""
 
+from functools import partial
+from operator import itemgetter
 from typing import Annotated, NotRequired
 
 from pydantic import Field
@@ -21,6 +23,7 @@ from ..pipeline.settings import (
     span,
     whole,
 )
+from ..pipeline.table_settings import model_of
 
 Resolution = number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)
 
@@ -133,4 +136,47 @@ SECTIONS = {
     "track": Annotated[Track, Field(description="velocity over inclination and phase shift")],
     "throws": Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")],
     "drive": Annotated[Drive, Field(description="search for the settings of the drive")],
+}
+
+
+def box_settings(section: str, config: dict) -> dict:
+    """A section whose initial conditions are drawn from the box of the section `operating`."""
+    box = {key: value for key, value in config["operating"].items() if key not in ("acceleration", "resolution")}
+    limits = {key: config["solver"][key] for key in ("settling", "mean_settling")}
+    own = {**box, **config[section], **limits}
+    stated = ("psi0", "z0", "vz0", *config[section], *own.get("bounds", ()))
+    return {**own, "model": {name: value for name, value in model_of(config).items() if name not in stated}}
+
+
+def transit_settings(config: dict) -> dict:
+    """The box of `operating`, the section `transit`, and how its parts differ."""
+    box = {name: config["operating"][name] for name in ("height", "vz0", "psi0", "seed", "tolerance")}
+    transit = {name: value for name, value in config["transit"].items() if name != "parts"}
+    model = {name: value for name, value in model_of(config).items() if name not in ("psi0", "z0", "vz0")}
+    return {**box, **transit, "starts": config["transit"]["parts"], "spread": config["parts"], "model": model}
+
+
+def drift_settings(config: dict) -> dict:
+    """The parts of the transit table without their differences."""
+    transit = {name: value for name, value in transit_settings(config).items() if name != "spread"}
+    return {**transit, **config["drift"]}
+
+
+def drive_settings(config: dict) -> dict:
+    """The search follows the parts of the transit table, within the error of the amplitude that the advice states."""
+    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
+    drive = config["drive"]
+    model = {name: value for name, value in transit["model"].items() if name not in drive["bounds"]}
+    return {**transit, **drive, "margin": config["advice"]["margin"], "model": model}
+
+
+# The tables that are not entries, and the function that returns the settings of each.
+TABLE_SETTINGS = {
+    **dict.fromkeys(("operating/shares", "operating/regimes"), partial(box_settings, "operating")),
+    "operating/transit": transit_settings,
+    **dict.fromkeys(("operating/drift", "operating/track_lengths"), drift_settings),
+    **dict.fromkeys(("operating/advice", "operating/changes"), itemgetter("advice")),
+    "operating/throws": partial(box_settings, "throws"),
+    "operating/track": partial(box_settings, "track"),
+    **dict.fromkeys(("operating/drive_front", "operating/drive_generations"), drive_settings),
 }

@@ -21,6 +21,7 @@ from ..pipeline.settings import (
     whole,
     word,
 )
+from ..pipeline.table_settings import FOLLOWED, model_of, with_model
 
 Epsilon = number("size of the perturbation, in units of the perturbed parameter", ge=1e-15, le=1)
 
@@ -84,4 +85,27 @@ SECTIONS = {
     "certificates": Annotated[Certificates, Field(description="proofs of orbits, bifurcations and chaos")],
     "attractors": Annotated[Attractors, Field(description="stroboscopic states over the amplitude")],
     "lyapunov": Annotated[Lyapunov, Field(description="Lyapunov exponents of the attractors")],
+}
+
+
+def certificates_settings(config: dict) -> dict:
+    return {**config["certificates"], "model": model_of(config, "orbits", normal=True)}
+
+
+# The tables that are not entries, and the function that returns the settings of each.
+TABLE_SETTINGS = {
+    **dict.fromkeys(
+        ("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
+        lambda config: with_model(config, "orbits", solver=("tolerance",), normal=True),
+    ),
+    **dict.fromkeys(
+        (
+            *("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
+            "orbits/certificate_times",
+        ),
+        certificates_settings,
+    ),
+    "attractors/strobes": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
+    "lyapunov/spectrum": lambda config: with_model(config, "attractors", "lyapunov", solver=FOLLOWED, normal=True),
+    "lyapunov/witnesses": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
 }

@@ -6,6 +6,7 @@ from pydantic import Field
 from typing_extensions import TypedDict
 
 from ..pipeline.settings import HeightNumber, Name, Period, Velocity, interval, mapping, number, whole
+from ..pipeline.table_settings import model_of
 
 Factor = number("factor by which a parameter is increased and decreased", gt=1, le=1e3)
 
@@ -30,4 +31,21 @@ class Sensitivity(TypedDict):
 
 SECTIONS = {
     "sensitivity": Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")],
+}
+
+
+def derivatives_settings(config: dict) -> dict:
+    own = {key: value for key, value in config["sensitivity"].items() if key != "curves"}
+    return {**own, "model": model_of(config, "orbits")}
+
+
+def curves_settings(config: dict) -> dict:
+    own = {key: config["sensitivity"][key] for key in ("longest_period", "most", "curves")}
+    return {**own, "model": model_of(config, "orbits", normal=True)}
+
+
+# The tables that are not entries, and the function that returns the settings of each.
+TABLE_SETTINGS = {
+    **dict.fromkeys(("sensitivity/derivatives", "sensitivity/groups"), derivatives_settings),
+    **dict.fromkeys(("sensitivity/continued", "sensitivity/meetings"), curves_settings),
 }

@@ -397,7 +397,7 @@ def test_an_entry_depends_on_what_it_uses_only():
 
 
 def test_a_table_that_is_not_declared_is_named():
-    with pytest.raises(ValueError, match="operating/counted is no table; add it to TABLES"):
+    with pytest.raises(ValueError, match="operating/counted is no table; add it to TABLE_SETTINGS"):
         settings_of(CONFIG, "operating/counted")
 
 

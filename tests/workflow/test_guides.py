@@ -42,7 +42,7 @@ def test_names_that_the_guide_says_to_edit_exist():
     for file, name in (
         ("scripts/claims/verdicts.py", "FINDINGS"),
         ("scripts/claims/settings.py", "CLAIMS"),
-        ("workflow/config/tables.py", "TABLES"),
+        ("scripts/operating/settings.py", "TABLE_SETTINGS"),
         ("scripts/figures/style.py", "METHODS"),
         ("scripts/conveyor/parameters.py", "FIXED_STEP_METHODS"),
         *(("scripts/conveyor/methods/fixed_step.py", name) for name in ("EVALUATIONS", "GROWTH")),

@@ -3,6 +3,7 @@
 import math
 
 from scripts.conveyor import TANGENTIAL
+from scripts.pipeline.table_settings import without_tangential
 
 ENTRIES = ("sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts")
 FIGURES = ("figures", "figures_on_request")
@@ -62,11 +63,6 @@ def fill_defaults(config: dict, section: str, entry: dict) -> dict:
         filled["model"].pop(axis, None)
     del filled["step" if filled["method"] == "event" else "tolerance"]
     return filled
-
-
-def without_tangential(model: dict) -> dict:
-    """A model without the parameters that do not affect the motion normal to the track."""
-    return {name: value for name, value in model.items() if name not in TANGENTIAL}
 
 
 def is_normal(section: str, entry: dict) -> bool:

@@ -10,8 +10,9 @@ import math
 from typing import Any
 
 from scripts.conveyor import normal_gravity
+from scripts.pipeline.table_settings import without_tangential
 
-from .entries import FIGURES, METHOD_SECTIONS, by_methods, without_tangential
+from .entries import FIGURES, METHOD_SECTIONS, by_methods
 from .errors import ConfigError
 from .files import merge
 from .model import MODEL

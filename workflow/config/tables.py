@@ -5,94 +5,18 @@ table expects the same settings, so a table that was made from other settings is
 """
 
 import itertools
-from functools import partial
 from operator import itemgetter
 
-from scripts.identification.settings import POSTERIOR, identification_settings
+from scripts.calibration import settings as calibration
+from scripts.claims import settings as claims
+from scripts.excitation import settings as excitation
+from scripts.identification import settings as identification
+from scripts.operating import settings as operating
+from scripts.orbits import settings as orbits
+from scripts.pipeline.table_settings import FOLLOWED, model_of, with_model
+from scripts.sensitivity import settings as sensitivity
 
-from .entries import ENTRIES, TIGHTER, resolve, without_tangential
-
-
-def model_of(config: dict, section: str = "", *, normal: bool = False) -> dict:
-    """The model with the overrides of a section, for tables that state their amplitudes.
-
-    It has no amplitude, so that another default amplitude does not rerun these tables. With `normal`, it has only what
-    affects the motion normal to the track.
-    """
-    model = {name: value for name, value in config["model"].items() if name != "acceleration"}
-    if section:
-        model |= config[section].get("model", {})
-    return without_tangential(model) if normal else model
-
-
-def with_model(config: dict, *sections: str, solver: tuple[str, ...] = (), normal: bool = False) -> dict:
-    """Settings of the solver and of sections of the config, of which later ones win, with the first one's model."""
-    settings = {key: config["solver"][key] for key in solver}
-    for section in sections:
-        settings |= config[section]
-    return {**settings, "model": model_of(config, sections[0], normal=normal)}
-
-
-def box_settings(section: str, config: dict) -> dict:
-    """A section whose initial conditions are drawn from the box of the section `operating`."""
-    box = {key: value for key, value in config["operating"].items() if key not in ("acceleration", "resolution")}
-    limits = {key: config["solver"][key] for key in ("settling", "mean_settling")}
-    own = {**box, **config[section], **limits}
-    stated = ("psi0", "z0", "vz0", *config[section], *own.get("bounds", ()))
-    return {**own, "model": {name: value for name, value in model_of(config).items() if name not in stated}}
-
-
-def transit_settings(config: dict) -> dict:
-    """The box of `operating`, the section `transit`, and how its parts differ."""
-    box = {name: config["operating"][name] for name in ("height", "vz0", "psi0", "seed", "tolerance")}
-    transit = {name: value for name, value in config["transit"].items() if name != "parts"}
-    model = {name: value for name, value in model_of(config).items() if name not in ("psi0", "z0", "vz0")}
-    return {**box, **transit, "starts": config["transit"]["parts"], "spread": config["parts"], "model": model}
-
-
-def drift_settings(config: dict) -> dict:
-    """The parts of the transit table without their differences."""
-    transit = {name: value for name, value in transit_settings(config).items() if name != "spread"}
-    return {**transit, **config["drift"]}
-
-
-def drive_settings(config: dict) -> dict:
-    """The search follows the parts of the transit table, within the error of the amplitude that the advice states."""
-    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
-    drive = config["drive"]
-    model = {name: value for name, value in transit["model"].items() if name not in drive["bounds"]}
-    return {**transit, **drive, "margin": config["advice"]["margin"], "model": model}
-
-
-def calibration_settings(config: dict) -> dict:
-    """The search leaves the values of the searched parameters in the model open. The static friction stays as stated
-    and limits the friction; 0 stands for none. A config to which calibrated parameters are added has the same settings.
-    """
-    own, model = config["calibration"], model_of(config)
-    static_friction = model.get("static_friction", 0.0)
-    ranges = {name: own["ranges"][name] for name in own["parameters"]}
-    if static_friction and "friction" in ranges:
-        ranges["friction"] = [ranges["friction"][0], min(ranges["friction"][1], static_friction)]
-    stated = ("psi0", "z0", "vz0", "static_friction", *own["parameters"])
-    return {
-        **{name: config["operating"][name] for name in ("height", "vz0", "psi0")},
-        **own,
-        "ranges": ranges,
-        "static_friction": static_friction,
-        "model": {name: value for name, value in model.items() if name not in stated},
-    }
-
-
-def calibration_study_settings(config: dict) -> dict:
-    """The study calibrates with the settings of the config, without its conveyor and its measurements."""
-    own = {name: value for name, value in calibration_settings(config).items() if name not in ("measurements", "model")}
-    own["ranges"] = {name: config["calibration"]["ranges"][name] for name in ("friction", "damping", "stiffness")}
-    own["parameters"] = list(own["ranges"])
-    box = {name: config["operating"][name] for name in ("height", "vz0", "psi0")}
-    model = {
-        name: value for name, value in model_of(config).items() if name not in ("z0", "static_friction", "psi0", "vz0")
-    }
-    return {**box, "calibration": own, "model": model}
+from .entries import ENTRIES, TIGHTER, resolve
 
 
 def precision_settings(config: dict, scene: str) -> dict:
@@ -131,75 +55,10 @@ def benchmark_settings(config: dict) -> dict:
     }
 
 
-def certificates_settings(config: dict) -> dict:
-    return {**config["certificates"], "model": model_of(config, "orbits", normal=True)}
-
-
-def derivatives_settings(config: dict) -> dict:
-    own = {key: value for key, value in config["sensitivity"].items() if key != "curves"}
-    return {**own, "model": model_of(config, "orbits")}
-
-
-def curves_settings(config: dict) -> dict:
-    own = {key: config["sensitivity"][key] for key in ("longest_period", "most", "curves")}
-    return {**own, "model": model_of(config, "orbits", normal=True)}
-
-
-def identification_table_settings(table: str, config: dict) -> dict:
-    return identification_settings(config, table, model_of(config, normal=table == "edges"))
-
-
-def comparison_settings(config: dict) -> dict:
-    """The parts of the transit table, on the measured drive."""
-    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
-    measured = ("frequency", "angle", "phase_shift", "harmonics")
-    model = {name: value for name, value in transit["model"].items() if name not in measured}
-    return {**transit, "model": model, "matters": config["clean_drive"]["matters"]}
-
-
-def clean_drive_settings(config: dict) -> dict:
-    """The parts of the transit table, on drives with one harmonic."""
-    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
-    return {**transit, **config["clean_drive"]}
-
-
-FOLLOWED = ("tolerance", "settling", "mean_settling")
-EXCITATION_TABLES = ("parameters", "harmonics", "quality", "samples", "waveform", "spectrum")
-CALIBRATION_TABLES = ("parameters", "samples", "fit", "alternatives", "prediction", "next")
+STAGES = (orbits, sensitivity, operating, identification, excitation, calibration, claims)
 # The tables that are not entries, and the function that returns the settings of each.
 TABLES = {
-    **dict.fromkeys(
-        ("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
-        lambda config: with_model(config, "orbits", solver=("tolerance",), normal=True),
-    ),
-    "orbits/certificates": certificates_settings,
-    "orbits/certified_bifurcations": certificates_settings,
-    "orbits/certified_chaos": certificates_settings,
-    "orbits/certificate_times": certificates_settings,
-    "attractors/strobes": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
-    "lyapunov/spectrum": lambda config: with_model(config, "attractors", "lyapunov", solver=FOLLOWED, normal=True),
-    "lyapunov/witnesses": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
-    "sensitivity/derivatives": derivatives_settings,
-    "sensitivity/groups": derivatives_settings,
-    "sensitivity/continued": curves_settings,
-    "sensitivity/meetings": curves_settings,
-    "operating/shares": partial(box_settings, "operating"),
-    "operating/regimes": partial(box_settings, "operating"),
-    "operating/transit": transit_settings,
-    "operating/drift": drift_settings,
-    "operating/track_lengths": drift_settings,
-    "operating/advice": itemgetter("advice"),
-    "operating/changes": itemgetter("advice"),
-    "operating/throws": partial(box_settings, "throws"),
-    "operating/track": partial(box_settings, "track"),
-    "operating/drive_front": drive_settings,
-    "operating/drive_generations": drive_settings,
-    **{f"identification/{name}": partial(identification_table_settings, name) for name in ("edges", *POSTERIOR)},
-    **dict.fromkeys((f"excitation/{name}" for name in EXCITATION_TABLES), itemgetter("excitation")),
-    "excitation/comparison": comparison_settings,
-    "excitation/clean_drive": clean_drive_settings,
-    **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
-    "results/claims": lambda config: {"claims": config["claims"]},
+    **{reference: settings for stage in STAGES for reference, settings in stage.TABLE_SETTINGS.items()},
     "results/benchmark": benchmark_settings,
     "results/reference_check": reference_settings,
     "results/stability": itemgetter("stability"),
@@ -210,14 +69,8 @@ TABLES = {
     "results/theory": lambda config: {"model": model_of(config)},
     "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),
-    "results/calibration_study": calibration_study_settings,
 }
-# Tables that only an explicit target makes.
-ON_REQUEST = (
-    "results/calibration_study",
-    *(f"excitation/{name}" for name in (*EXCITATION_TABLES, "comparison")),
-    *(f"calibration/{name}" for name in CALIBRATION_TABLES),
-)
+ON_REQUEST = (*excitation.ON_REQUEST, *calibration.ON_REQUEST)
 
 
 def references(config: dict) -> list[str]:
@@ -247,7 +100,7 @@ def settings_of(config: dict, reference: str) -> dict:
     if section in ("precision", "precision_times"):
         return precision_settings(config, name)
     if section not in ENTRIES:
-        raise ValueError(f"{reference} is no table; add it to TABLES in workflow/config/tables.py")
+        raise ValueError(f"{reference} is no table; add it to TABLE_SETTINGS in the settings of its stage")
     return config[section][name] if section == "regressions" else resolve(config, section, name)
 
 

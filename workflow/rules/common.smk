@@ -4,12 +4,13 @@ import re
 import signal
 
 from scripts.calibration.effort import study_sets
+from scripts.excitation.settings import EXCITATION_TABLES
 from scripts.figures.titles import title_of
 from scripts.pipeline.source_hash import source_hash
 from workflow.config.entries import ENTRIES, resolve
 from workflow.config.files import DEFAULT_FILES, ROOT
 from workflow.config.sharing import THREADS, plan
-from workflow.config.tables import EXCITATION_TABLES, kind_of, settings_of
+from workflow.config.tables import kind_of, settings_of
 
 # Keep pyarrow's allocator from huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more
 # memory with them.

@@ -2,6 +2,7 @@
 from pathlib import Path
 
 from scripts.conveyor import __version__
+from workflow.config.files import STAGES
 from workflow.config.schema import json_schema
 from workflow.config.tables import published_scenes
 
@@ -65,6 +66,12 @@ LIBRARY = [
     for file in sources("scripts/conveyor/**/*.py")
     if not file.endswith("__init__.py")
 ]
+# The reference of tables lists the columns of all modules with a mapping TABLES.
+STAGE_MODULES = [
+    Path(file).relative_to(source("scripts")).with_suffix("").as_posix()
+    for stage_name in STAGES
+    for file in sources(f"scripts/{stage_name}/*.py")
+]
 
 
 rule page:
@@ -80,7 +87,7 @@ rule page:
     wildcard_constraints:
         page=one_of(PAGES),
     params:
-        **stage("docs.{page}_page"),
+        **stage("docs.{page}_page", scripts=lambda wildcards: STAGE_MODULES if wildcards.page == "tables" else []),
     message:
         "The page {wildcards.page}.md"
     script:
