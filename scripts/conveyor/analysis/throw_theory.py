@@ -44,6 +44,7 @@ from ..solver.model import check_harmonics, pack_harmonics
 
 LONGEST_THROW = math.sqrt(1.0 + math.pi**2)  # Γ at which the flight fills the cycle
 SHORT = 5e-3  # rad, half the turn N below which its power series is free of cancellation
+NO_HARMONICS = np.zeros(0)
 HALVINGS = 60  # of [0, 1], beyond the precision of n
 
 
@@ -59,6 +60,11 @@ def throw_number(
     """The throw number Γ at amplitudes (m/s²) of any shape; `others` do not matter.
 
     It is the plate's largest downward acceleration over g cos α, which is a_z/(g cos α) without harmonics.
+
+    Examples
+    --------
+    >>> throw_number([40.0, 60.0], angle=np.radians(12.0), gravity=9.81).round(3).tolist()
+    [0.848, 1.272]
     """
     share = plate.largest_fall(pack_harmonics(check_harmonics(harmonics)))
     return np.asarray(acceleration) * math.sin(angle) / (gravity * math.cos(inclination)) * share
@@ -109,10 +115,15 @@ def throw_velocity(
     throw = throw_number(acceleration, angle=angle, gravity=gravity, inclination=inclination)
     cycles = flight_cycles(throw)
     omega = 2.0 * math.pi * frequency
-    speed = np.asarray(acceleration) * math.cos(angle) / omega
-    leaves = math.pi - np.arccos(1.0 / np.maximum(throw, 1.0)) + phase_shift
-    lands = leaves + 2.0 * math.pi * cycles
+    take_off = math.pi - np.arccos(1.0 / np.maximum(throw, 1.0))
+    amplitude = np.asarray(acceleration)
+
+    def plate_at(phase):
+        return plate.motion(
+            amplitude * math.cos(angle), amplitude * math.sin(angle), omega, phase_shift, NO_HARMONICS, phase
+        )
+
+    leaves, lands = plate_at(take_off), plate_at(take_off + 2.0 * math.pi * cycles)
     flight = cycles / frequency
-    in_flight = speed * np.sin(leaves) * flight - 0.5 * gravity * math.sin(inclination) * flight**2
-    in_contact = speed / omega * (np.cos(lands) - np.cos(leaves))
-    return frequency * (in_flight + in_contact)
+    in_flight = leaves["vx"] * flight - 0.5 * gravity * math.sin(inclination) * flight**2
+    return frequency * (in_flight + leaves["x"] - lands["x"])
