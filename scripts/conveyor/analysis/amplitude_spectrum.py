@@ -24,6 +24,13 @@ def harmonic_spectrum(samples: np.ndarray, duration: float) -> AmplitudeSpectrum
 
     No window and no leakage: every harmonic and subharmonic below n / (2T) falls on a bin. ValueError if the samples
     are fewer than two, of another shape than (n,), or not finite.
+
+    Examples
+    --------
+    >>> times = np.arange(64) / 64.0 * 0.02  # s, one cycle of 50 Hz
+    >>> spectrum = harmonic_spectrum(3.0 + 2.0 * np.cos(2.0 * np.pi * 100.0 * times), 0.02)
+    >>> spectrum.amplitude[:4].round(9).tolist()  # at 0, 50, 100 and 150 Hz
+    [3.0, 0.0, 2.0, 0.0]
     """
     samples = check(samples)
     return one_sided(samples, duration, len(samples))

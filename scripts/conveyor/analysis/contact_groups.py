@@ -39,6 +39,13 @@ def groups_of_contact(
     ----------
     stiffness, damping : k_c (N/m^p) and d_c (N s/m), arrays of equal shape, or numbers
     parameters : table with the conveyor, or with one row for each contact; its contact is not used
+
+    Examples
+    --------
+    >>> group, loss = groups_of_contact(5e5, 0.3, parameter_table(Conveyor()))
+    >>> stiffness, damping = contact_of_groups(group, loss, parameter_table(Conveyor()))
+    >>> round(float(stiffness)), round(float(damping), 6)  # N/m^p, N s/m
+    (500000, 0.3)
     """
     unit, unit_of_damping, exponent = units(parameters)
     group = np.asarray(stiffness) / unit

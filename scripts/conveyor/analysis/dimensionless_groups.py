@@ -56,7 +56,14 @@ def normal_gravity(parameters: np.ndarray) -> float:
 
 
 def groups_of(parameters: np.ndarray) -> Groups:
-    """The groups of one conveyor, a row of a table of parameters."""
+    """The groups of one conveyor, a row of a table of parameters.
+
+    Examples
+    --------
+    >>> groups = groups_of(parameter_table(Conveyor(acceleration=40.0)))
+    >>> round(groups.amplitude, 4), round(groups.damping, 4), round(groups.stiffness, 2)
+    (0.8478, 1.3642, 72.15)
+    """
     parameters = as_rows(parameters)
     refuse_harmonics(parameters, "a motion that depends on dimensionless groups alone")
     omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
@@ -81,14 +88,27 @@ def packed(groups: Groups, psi0: float = 0.0) -> np.ndarray:
 
 
 def length_and_speed_units(parameters: np.ndarray) -> tuple[float, float]:
-    """The units of length, g/ω² (m), and velocity, g/ω (m/s), of one conveyor."""
+    """The units of length, g/ω² (m), and velocity, g/ω (m/s), of one conveyor.
+
+    Examples
+    --------
+    >>> length, speed = length_and_speed_units(parameter_table(Conveyor()))
+    >>> round(1e6 * length, 1), round(1e3 * speed, 1)  # µm, mm/s
+    (99.4, 31.2)
+    """
     parameters = as_rows(parameters)
     omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
     return float(gravity / omega**2), float(gravity / omega)
 
 
 def amplitude_of(parameters: np.ndarray, ratio: float) -> float:
-    """The amplitude â (m/s²) at which a_z/g is `ratio`, for one conveyor."""
+    """The amplitude â (m/s²) at which a_z/g is `ratio`, for one conveyor.
+
+    Examples
+    --------
+    >>> round(amplitude_of(parameter_table(Conveyor()), 1.0), 2)  # the part can leave the plate above it
+    47.18
+    """
     parameters = as_rows(parameters)
     return float(ratio * normal_gravity(parameters) / math.sin(parameters[model.ANGLE]))
 

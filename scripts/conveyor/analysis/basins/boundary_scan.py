@@ -38,6 +38,13 @@ def find_crossings(
     heights : z0 of the scan, m, ascending, shape (h,); the scan may miss stripes narrower than their distance
     decide : gives the state of motion, str, shape (m,), for a table of shape (m,)
     resolution : width of the interval that encloses a change, m
+
+    Examples
+    --------
+    >>> parameters = parameter_table(Conveyor(), acceleration=[30.0, 40.0])
+    >>> crossings = find_crossings(parameters, np.linspace(0.0, 5e-4, 26), lambda rows: classify(rows).state)
+    >>> (1e6 * crossings.height).round(1).tolist(), crossings.above.tolist()  # µm
+    ([257.5, 71.9], ['second', 'second'])
     """
     heights = np.asarray(heights, dtype=np.float64)
     if heights.ndim != 1 or len(heights) < 2 or not (np.diff(heights) > 0.0).all():

@@ -14,7 +14,13 @@ class Hyperbola(NamedTuple):
 
 
 def critical_height(acceleration: np.ndarray, parameters: Hyperbola | np.ndarray) -> np.ndarray:
-    """z0 in m by Eq. 13 at `acceleration` (m/s², shape (n,)); `parameters` of shape (…, 3) give shape (…, n)."""
+    """z0 in m by Eq. 13 at `acceleration` (m/s², shape (n,)); `parameters` of shape (…, 3) give shape (…, n).
+
+    Examples
+    --------
+    >>> critical_height(np.array([30.0, 40.0]), Hyperbola(A=5e-3, B=1.0, C=-5e-5)).round(7).tolist()  # m
+    [0.0001113, 7.2e-05]
+    """
     a, b, c = np.moveaxis(np.asarray(parameters, dtype=np.float64)[..., None], -2, 0)
     return a / (b + acceleration) + c
 

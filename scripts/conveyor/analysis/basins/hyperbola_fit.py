@@ -64,6 +64,13 @@ def fit_hyperbola(acceleration: np.ndarray, height: np.ndarray, bounds: tuple[fl
     ----------
     acceleration, height : data, m/s² and m, shape (n,), n ≥ 3
     bounds : B + â must not change its sign over the data: the pole of Eq. 13 lies outside them
+
+    Examples
+    --------
+    >>> amplitudes = np.linspace(25.0, 50.0, 20)
+    >>> fit = fit_hyperbola(amplitudes, critical_height(amplitudes, Hyperbola(5e-3, 1.0, -5e-5)), (-20.0, 20.0))
+    >>> round(fit.parameters.A, 6), round(fit.parameters.B, 4)
+    (0.005, 1.0)
     """
     acceleration, height = check_data(acceleration, height, bounds)
     starts = np.linspace(*bounds, STARTS)

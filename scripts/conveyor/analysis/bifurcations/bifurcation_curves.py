@@ -200,6 +200,14 @@ def follow_bifurcation_curve(
     reach : lowest and highest λ
     longest_step : largest arclength of a step, in (x, y, log Γ, λ)
     most : points in one direction after which the curve ends with "length"
+
+    Examples
+    --------
+    >>> fold = find_bifurcation("fold", 1, np.array([-3.41, 1.61, 0.508]), groups_of(parameter_table(Conveyor())))
+    >>> path = ParameterPath(damping=1.0, stiffness=0.0)
+    >>> curve = follow_bifurcation_curve(fold, path, (0.1, 5.0), (-0.5, 0.5), longest_step=0.1, most=100)
+    >>> [end.value for end in curve.ends], round(curve.points[0].groups.amplitude, 2)  # Γ at the least damping
+    (['limit', 'limit'], 0.29)
     """
     equations = CurveEquations(point, path)
     begin = np.append(point.unknown[:2], [np.log(point.groups.amplitude), 0.0])

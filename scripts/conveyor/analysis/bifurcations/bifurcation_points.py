@@ -116,6 +116,13 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
     period : excitation cycles of the orbit
     unknown : guess of the unknowns, see BifurcationPoint
     groups : of the conveyor; Γ does not matter, because it is an unknown
+
+    Examples
+    --------
+    >>> row = parameter_table(Conveyor())
+    >>> fold = find_bifurcation("fold", 1, np.array([-3.41, 1.61, 0.508]), groups_of(row))
+    >>> round(amplitude_of(row, fold.groups.amplitude), 4)  # m/s²
+    23.9763
     """
 
     def functions(here):

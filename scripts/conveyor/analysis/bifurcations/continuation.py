@@ -63,6 +63,13 @@ def follow_branch(parameters: np.ndarray, orbit: Orbit, limits: tuple[float, flo
     parameters : a row of a table; its amplitude is ignored
     orbit : an orbit within the limits
     limits : lowest and highest â, m/s²
+
+    Examples
+    --------
+    >>> orbit = periodic_orbit(Conveyor(acceleration=40.0), Start(z=3e-4))
+    >>> branch = follow_branch(parameter_table(Conveyor()), orbit, (20.0, 60.0))
+    >>> [(one.kind, round(one.orbit.acceleration, 3)) for one in branch.bifurcations]  # m/s²
+    [('fold', 23.976), ('period_doubling', 54.218)]
     """
     upwards = np.array([0.0, 0.0, 1.0])
     orbits, found, last, parent = _follow(parameters, orbit, limits, upwards)
@@ -154,6 +161,14 @@ def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbi
 
     parameters : a row of a table; its amplitude is ignored
     Returns None where Newton's iteration finds no orbit.
+
+    Examples
+    --------
+    >>> row = parameter_table(Conveyor())
+    >>> branch = follow_branch(row, periodic_orbit(Conveyor(acceleration=40.0), Start(z=3e-4)), (20.0, 60.0))
+    >>> doubled = find_doubled_orbit(row, branch.bifurcations[-1])
+    >>> doubled.period, doubled.stable
+    (2, True)
     """
     orbit = bifurcation.orbit
     single, double = ReturnMap(parameters, orbit.period), ReturnMap(parameters, 2 * orbit.period)

@@ -165,6 +165,12 @@ def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, p
     acceleration : amplitude, m/s²
     state : δ (m) and v (m/s) at the phase ψ0, shape (2,)
     period : excitation cycles
+
+    Examples
+    --------
+    >>> orbit = find_orbit(parameter_table(Conveyor()), 40.0, np.array([-5.5e-4, 0.02]), 1)
+    >>> orbit.stable, orbit.impacts, round(abs(orbit.multipliers[0]), 4)
+    (True, 1, 0.7254)
     """
     (parameters,), _ = check_rows(parameters)
     acceleration = check_number("acceleration", acceleration, *RANGES["acceleration"], "m/s²")

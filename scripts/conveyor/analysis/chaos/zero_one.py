@@ -22,6 +22,12 @@ def zero_one(series: np.ndarray, seed: int, resolution: float = 0.0) -> float:
     series : float64, shape (n,), at least 100 samples
     seed : of the random c
     resolution : a series that varies by no more than this is constant, K = 0; give the accuracy of the samples
+
+    Examples
+    --------
+    >>> rows = parameter_table(Conveyor(), acceleration=[40.0, 80.0], z0=3e-4)
+    >>> [round(zero_one(strobes(row, 600, 1e-10)[200:, 0], 1, 1e-12)) for row in rows]
+    [0, 1]
     """
     series = np.asarray(series, dtype=np.float64)
     if series.ndim != 1 or len(series) < 100 or not np.isfinite(series).all():
