@@ -29,7 +29,7 @@ def follow_seeds(settings: dict) -> list[Orbit]:
     JobError
         names the seed that does not lead to a stable orbit
     """
-    found = []
+    orbits = []
     for seed in settings["seeds"]:
         row = grid.product({name: [value] for name, value in seed.items()}, settings["model"])[1]
         state = initial_states(row, ORBIT_TOLERANCE)[0]
@@ -39,8 +39,8 @@ def follow_seeds(settings: dict) -> list[Orbit]:
                 f"orbits.seeds: {seed} leads to no stable orbit of up to {settings['max_period']} cycles; "
                 "choose another amplitude or more cycles"
             )
-        found.append(orbit)
-    return found
+        orbits.append(orbit)
+    return orbits
 
 
 def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:

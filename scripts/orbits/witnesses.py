@@ -32,15 +32,15 @@ RESOLUTION = 1e-9
 
 def zero_one_values(parameters: np.ndarray, settings: dict, *, threads: int, progress: str | None) -> np.ndarray:
     """K of the 0-1 test on the speed of approach at the strobes, shape (n,)."""
-    found = np.empty(len(parameters))
+    indicators = np.empty(len(parameters))
 
     def work(begin, end):
         for i in range(begin, end):
             speeds = strobes(parameters[i], STROBES, settings["tolerance"])[:, 1]
-            found[i] = zero_one(speeds, SEED, RESOLUTION)
+            indicators[i] = zero_one(speeds, SEED, RESOLUTION)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=8, progress=progress)
-    return found
+    return indicators
 
 
 def reason(row: pd.Series, significant: float) -> str | None:

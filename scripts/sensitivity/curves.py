@@ -150,16 +150,16 @@ def make(
     chosen = [one for one in chosen if one.point is not None and (one.kind != GRAZING or one.rides)]
     tasks = [(bifurcation, parameter) for bifurcation in chosen for parameter in POWERS]
     tasks += [(bifurcation, "angle") for bifurcation in chosen]
-    found = [None] * len(tasks)
+    rows_of_curves = [None] * len(tasks)
 
     def work(begin, end):
         for n in range(begin, end):
             bifurcation, parameter = tasks[n]
             curve = follow_curve(parameters, bifurcation.point, parameter, options)
-            found[n] = curve_rows(parameters, bifurcation, parameter, curve)
+            rows_of_curves[n] = curve_rows(parameters, bifurcation, parameter, curve)
 
     for_each_chunk(work, len(tasks), threads=threads, chunk=1, progress=progress)
     return {
-        "continued": fields.columns([row for rows, _ in found for row in rows], TABLES["continued"]),
-        "meetings": fields.columns([row for _, rows in found for row in rows], TABLES["meetings"]),
+        "continued": fields.columns([row for rows, _ in rows_of_curves for row in rows], TABLES["continued"]),
+        "meetings": fields.columns([row for _, rows in rows_of_curves for row in rows], TABLES["meetings"]),
     }

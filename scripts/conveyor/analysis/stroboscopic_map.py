@@ -217,15 +217,15 @@ def follow_map(parameters, tolerance, state, cycles):
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
     no_tangent = np.empty((0, 2))
-    found = np.zeros(FEATURES)
+    cycle_features = np.zeros(FEATURES)
     strobes, features = np.full((cycles, 2), np.nan), np.full((cycles, FEATURES), np.nan)
     mark = 0  # 0, 1, 3, 7, …: at last one is in the repeated part, a whole period before n (Brent 1980)
     for n in range(cycles):
-        status = advance(c, series, state, c.psi0, c.period, no_tangent, found)
+        status = advance(c, series, state, c.psi0, c.period, no_tangent, cycle_features)
         if status != OK:
             return status, strobes, features
         copy(strobes[n], state)
-        copy(features[n], found)
+        copy(features[n], cycle_features)
         same = strobes[n, 0] == strobes[mark, 0] and strobes[n, 1] == strobes[mark, 1]
         # The times since the last separation are part of what repeats itself.
         if mark < n and same and features[n, AIRBORNE] == features[mark, AIRBORNE]:
@@ -255,7 +255,7 @@ def monodromy(parameters, tolerance, state, cycles, airborne):
 
     Parameters
     ----------
-    parameters, tolerance, state, cycles : as in `follow`
+    parameters, tolerance, state, cycles : as in `follow_map`
     airborne : time since the last separation, s
 
     Returns
@@ -266,13 +266,13 @@ def monodromy(parameters, tolerance, state, cycles, airborne):
     """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
-    found = np.zeros(FEATURES)
-    found[AIRBORNE] = airborne
+    cycle_features = np.zeros(FEATURES)
+    cycle_features[AIRBORNE] = airborne
     matrices, features = np.zeros((cycles, 2, 2)), np.zeros((cycles, FEATURES))
     for n in range(cycles):
         tangent = np.eye(2)
-        status = advance(c, series, state, c.psi0, c.period, tangent, found)
-        copy(features[n], found)
+        status = advance(c, series, state, c.psi0, c.period, tangent, cycle_features)
+        copy(features[n], cycle_features)
         for k in range(2):
             copy(matrices[n, k], tangent[:, k])
         if status != OK:

@@ -46,7 +46,7 @@ def rates(system: System, x: Sequence, columns: int) -> list:
     stiff = w if law.twice_exponent == 2 else square  # w^(2p-1)
     for _ in range(law.twice_exponent - 3):
         stiff = stiff * w
-    found = [
+    derivatives = [
         (y - square * law.beta) * arb(0.5),
         w + driven * gamma - stiff * square * law.kappa,
         w * sine * arb(-1),
@@ -57,8 +57,8 @@ def rates(system: System, x: Sequence, columns: int) -> list:
     for column in range(columns):
         eta, zeta = x[MOTION + 2 * column : MOTION + 2 * column + 2]
         pull = stiff * eta * softening
-        found += [w * (zeta - eta * law.beta), pull + driven if column == 2 else pull]
-    return found
+        derivatives += [w * (zeta - eta * law.beta), pull + driven if column == 2 else pull]
+    return derivatives
 
 
 def bound_system(system: System) -> System:

@@ -72,12 +72,15 @@ def follow_branch(parameters: np.ndarray, orbit: Orbit, limits: tuple[float, flo
     [('fold', 23.976), ('period_doubling', 54.218)]
     """
     upwards = np.array([0.0, 0.0, 1.0])
-    orbits, found, last, parent = _follow(parameters, orbit, limits, upwards)
+    orbits, bifurcations, last, parent = _follow(parameters, orbit, limits, upwards)
     if last == "closed":
-        return Branch(orbits, found, (last, last), None)
-    before, found_before, first, other = _follow(parameters, orbit, limits, -upwards)
+        return Branch(orbits, bifurcations, (last, last), None)
+    before, bifurcations_before, first, other = _follow(parameters, orbit, limits, -upwards)
     return Branch(
-        [*before[:0:-1], *orbits], [*reversed(found_before), *found], (first, last), parent if other is None else other
+        [*before[:0:-1], *orbits],
+        [*reversed(bifurcations_before), *bifurcations],
+        (first, last),
+        parent if other is None else other,
     )
 
 

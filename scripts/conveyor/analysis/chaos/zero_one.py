@@ -51,7 +51,7 @@ def mean_square_displacement(series, c, lags):
     products of samples.
     """
     windows = len(series) - lags
-    found = np.zeros((lags, len(c)))
+    sums = np.zeros((lags, len(c)))
     for lag in range(lags):
         weights = (2.0 if lag > 0 else 1.0) * np.cos(lag * c)
         # Sums over j: of the pairs that begin with the sample number `first` between the two times, and of all up
@@ -65,5 +65,5 @@ def mean_square_displacement(series, c, lags):
                 products += series[new] * series[new + lag] - series[old] * series[old + lag]
             pairs += products
             for i in range(len(c)):
-                found[first + lag, i] += weights[i] * pairs
-    return found.T / windows
+                sums[first + lag, i] += weights[i] * pairs
+    return sums.T / windows

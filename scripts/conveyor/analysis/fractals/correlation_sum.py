@@ -42,11 +42,11 @@ def pair_counts(points, references, theiler, squares):
         begin, end = max(i - theiler, 0), min(i + theiler + 1, n)
         apart[begin:end] = np.inf
         pairs += n - (end - begin)
-        found = 0
+        count = 0
         for j in range(n):
-            near[found] = apart[j]
-            found += apart[j] < squares[0]
-        for j in range(found):
+            near[count] = apart[j]
+            count += apart[j] < squares[0]
+        for j in range(count):
             shell = shells_of[max((bits[j] >> FRACTION) - lowest, 0)]
             counts[shell + (near[j] < limits[shell])] += 1
     return counts[:0:-1].cumsum()[::-1], pairs
