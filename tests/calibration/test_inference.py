@@ -125,6 +125,9 @@ def test_searches_that_find_other_values_disagree():
         found = Sample(moved, np.zeros(400), weights, 0.0, 400.0, search)
         friction, *_ = summarize_parameters(found, SETTINGS)
         assert friction["status"] == status and agree(found, SETTINGS) == (status == DETERMINED)
+        if status == DETERMINED:  # the interval of 95 % of a normal distribution
+            width = math.log(friction["high"] / friction["low"])
+            assert width == pytest.approx(2.0 * 1.96 * 0.01 * (high - low)[0], rel=0.15)
 
 
 def test_velocities_that_no_parameters_give_are_not_explained():
