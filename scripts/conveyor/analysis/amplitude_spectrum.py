@@ -42,6 +42,13 @@ def windowed_spectrum(samples: np.ndarray, duration: float) -> AmplitudeSpectrum
     Amplitudes are divided by the window's mean, so that a line on a bin has its true height; one half-way between
     two bins is lower by the factor 8/(3π), 15 %. The mean value is taken out before the window is applied. ValueError
     as for `harmonic_spectrum`.
+
+    Examples
+    --------
+    >>> times = np.arange(256) / 256.0  # s
+    >>> spectrum = windowed_spectrum(3.0 + 2.0 * np.cos(2.0 * np.pi * 5.0 * times), 1.0)
+    >>> round(float(spectrum.amplitude[0]), 6), round(float(spectrum.amplitude[5]), 6)  # the mean, and 5 Hz
+    (3.0, 2.0)
     """
     samples = check(samples)
     window = hann(len(samples), sym=False)

@@ -114,7 +114,14 @@ def amplitude_of(parameters: np.ndarray, ratio: float) -> float:
 
 
 def scaled_start(parameters: np.ndarray) -> tuple[float, float, float]:
-    """The groups of one initial condition: z0 ω²/g, ż0 ω/g and ψ0 (rad)."""
+    """The groups of one initial condition: z0 ω²/g, ż0 ω/g and ψ0 (rad).
+
+    Examples
+    --------
+    >>> height, velocity, phase = scaled_start(parameter_table(Conveyor(), z0=3e-4))
+    >>> round(height, 4), velocity, phase
+    (3.0182, 0.0, 0.0)
+    """
     parameters = as_rows(parameters)
     length, velocity = length_and_speed_units(parameters)
     return float(parameters[model.Z0] / length), float(parameters[model.VZ0] / velocity), float(parameters[model.PSI0])

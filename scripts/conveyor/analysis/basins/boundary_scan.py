@@ -144,6 +144,11 @@ def select_critical(point: np.ndarray, below: np.ndarray) -> np.ndarray:
     It is the lowest crossing at which the first state ends: a part released lower is certain to move with the plate.
     (The height above which *only* the second state is found need not exist: where the second state is young, parts that
     fall from still higher land in the first state again.)
+
+    Examples
+    --------
+    >>> select_critical(np.array([0, 0, 1]), np.array(["second", "first", "first"])).tolist()
+    [False, True, True]
     """
     leaves = np.flatnonzero(below == "first")
     chosen = np.zeros(len(point), dtype=bool)

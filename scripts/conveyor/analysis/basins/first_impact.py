@@ -48,7 +48,14 @@ def find_first_impacts(parameters):
 
 
 def first_impacts(parameters: np.ndarray) -> FirstImpact:
-    """First impacts of the initial conditions in a table of `parameters`, shape (n,)."""
+    """First impacts of the initial conditions in a table of `parameters`, shape (n,).
+
+    Examples
+    --------
+    >>> impacts = first_impacts(parameter_table(Conveyor(acceleration=40.0), z0=[1e-3]))
+    >>> bool(abs(impacts.velocity[0] + 9.81 * impacts.time[0]) < 1e-12)  # free fall
+    True
+    """
     return FirstImpact(*find_first_impacts(as_rows(parameters)).T)
 
 

@@ -200,6 +200,13 @@ def settled_orbit(
     state : δ (m) and v (m/s)
     periods : the periods to try, in this order
     cycles : excitation cycles that bring the trajectory near its orbit; Newton's iteration does the rest
+
+    Examples
+    --------
+    >>> row = parameter_table(Conveyor(), z0=3e-4)
+    >>> orbit = settled_orbit(row, 57.0, initial_states(row[None], 1e-10)[0], periods=(1, 2), cycles=1000)
+    >>> orbit.period, orbit.stable
+    (2, True)
     """
     parameters = as_rows(parameters)
     row, end = with_amplitude(parameters, acceleration), np.array(state, dtype=np.float64)
