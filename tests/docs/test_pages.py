@@ -128,6 +128,35 @@ def test_verdicts_are_counted():
     assert render("{{ not_reproduced | length }} ({{ not_reproduced | listed }})", found) == "2 (C02 and C03)"
 
 
+def test_two_stable_motions_coexist_where_two_orbits_are_proved():
+    """At 40 m/s², two orbits are stable; at 50 m/s², only one of two; at 60 m/s², two enclosures may hold one orbit."""
+    orbits = pd.DataFrame(
+        [
+            (40.0, "stable", 1.0, 1.1, True),
+            (40.0, "stable", 2.0, 2.1, True),
+            (50.0, "stable", 1.0, 1.1, True),
+            (50.0, "unstable", 2.0, 2.1, True),
+            (60.0, "stable", 1.0, 1.1, True),
+            (60.0, "stable", 1.05, 1.2, False),
+        ],
+        columns=["acceleration", "stability", "contact_time_low", "contact_time_high", "contained"],
+    )
+    bifurcations = pd.DataFrame(
+        [
+            ("fold", 24.0, True),
+            ("fold", 23.0, False),
+            ("period_doubling", 54.0, True),
+            ("period_doubling", 56.0, False),
+        ],
+        columns=["kind", "acceleration_low", "proved"],
+    )
+    chaos = pd.DataFrame({"acceleration": [60.0, 70.0], "proved": [False, True]})
+    found = facts.summarize_proofs(orbits, bifurcations, chaos)
+    assert list(found["both_stable"]) == [40.0]
+    assert (found["fold"], found["doublings_proved"], list(found["chaos_proved"])) == (24.0, 1, [70.0])
+    assert (found["orbits_tried"], found["orbits_proved"]) == (6, 5)
+
+
 # -- the config, key by key --------------------------------------------------------------------------------------------
 
 
