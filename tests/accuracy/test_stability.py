@@ -41,11 +41,12 @@ def test_limit_of_an_impact_by_euler_weights_the_stiffness_with_the_speed():
     assert stability.impact_limit("euler", conveyor, speed) == pytest.approx(wanted, rel=1e-4)
 
 
+@pytest.mark.parametrize("damping", [0.3, 10.0])
 @pytest.mark.parametrize("method", ["euler", "semi_implicit_euler", "rk4"])
-def test_a_part_rests_within_the_limit_and_not_beyond(method):
-    limit = stability.stability_limit(method, 1e5, 0.3, MASS)
-    assert stability.outcome_at_rest(method, 0.7 * limit, 1e5, 0.3) == stability.RIGHT
-    assert stability.outcome_at_rest(method, 1.3 * limit, 1e5, 0.3) in (stability.GROWS, stability.BLOWS_UP)
+def test_a_part_rests_within_the_limit_and_not_beyond(method, damping):
+    limit = stability.stability_limit(method, 1e5, damping, MASS)
+    assert stability.outcome_at_rest(method, 0.7 * limit, 1e5, damping) == stability.RIGHT
+    assert stability.outcome_at_rest(method, 1.3 * limit, 1e5, damping) in (stability.GROWS, stability.BLOWS_UP)
 
 
 def test_the_solver_is_right_at_rest_and_in_impacts():
