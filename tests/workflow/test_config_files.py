@@ -95,7 +95,7 @@ def test_files_of_the_project_are_valid(file):
 
 def test_keys_are_in_the_order_of_the_first_file(tmp_path):
     """Snakemake begins with the overlay, adds the config of the Snakefile, and merges the overlay again."""
-    overlay = {"sweeps": {"heights": {"axes": {"z0": {"num": 41}}}}, "figures": {"fig22": {"title": "x"}}}
+    overlay = {"sweeps": {"heights": {"axes": {"z0": {"num": 41}}}}, "figures": {"fig22": {"section": "4.1"}}}
     file = tmp_path / "mine.yaml"
     file.write_text(yaml.safe_dump(overlay))
     as_snakemake_merges = merged(overlay, read_config(), overlay)

@@ -11,7 +11,7 @@ MODULES = sorted(
     ".".join(path.relative_to(SCRIPTS).with_suffix("").parts)
     for path in SCRIPTS.rglob("*.py")
     # The declarations of settings belong to the workflow, which imports them as modules of the package `scripts`.
-    if path.name not in ("__init__.py", "settings.py") and "conveyor" not in path.parts
+    if path.name not in ("__init__.py", "settings.py", "table_settings.py") and "conveyor" not in path.parts
 )
 
 
