@@ -58,20 +58,16 @@ def expand_tangents(c, series, expansions, free):
     expansions : float64, shape (2, 3, SIZE), for each perturbation the rows ETA, ZETA, and RATE, ζ - (d_c/m) η
     free : whether the contact force is left out
     """
-    w, stiff = row_of(series, FIRST + workspace.W), row_of(series, workspace.SCRATCH)
-    damping = 0.0 if free else c.damping
-    stiffness = 0.0 if free else c.exponent * c.stiffness
-    if c.exponent == 1.5:
-        stiff = row_of(series, FIRST + workspace.SQUARE)
-    elif c.exponent == 1.0:
-        stiff = w
-    else:
-        contact_law.expand_power(c, series, FIRST, 2.0 * c.exponent - 1.0)
+    w = row_of(series, FIRST + workspace.W)
+    stiffness, stiff = contact_law.expand_stiffness(c, series, FIRST)
+    slope = contact_law.smooth_slope(c)
+    if free:
+        stiffness = slope = 0.0
     w_0, stiff_0 = w[0], stiff[0]
     eta_1, eta_2 = expansions[0, ETA, 0], expansions[1, ETA, 0]
     zeta_1, zeta_2 = expansions[0, ZETA, 0], expansions[1, ZETA, 0]
     for n in range(ORDER):
-        rate_1, rate_2 = zeta_1 - damping * eta_1, zeta_2 - damping * eta_2
+        rate_1, rate_2 = zeta_1 - slope * eta_1, zeta_2 - slope * eta_2
         expansions[0, RATE, n], expansions[1, RATE, n] = rate_1, rate_2
         # The newest coefficients are still in registers, and the processor computes both perturbations at a time.
         drift_1, drift_2 = w_0 * rate_1, w_0 * rate_2
@@ -140,7 +136,7 @@ def switch_damping(c, tangent, pulled):
     if c.tension == TENSION_CLIP:
         sign = -1.0 if pulled else 1.0
         for i in range(tangent.shape[0]):
-            tangent[i, 1] += sign * c.damping * tangent[i, 0]
+            tangent[i, 1] += sign * contact_law.smooth_slope(c) * tangent[i, 0]
 
 
 @compiled_inline

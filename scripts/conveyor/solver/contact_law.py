@@ -53,6 +53,33 @@ def force_rate(c, w, v, press):
     return stiffening + c.damping * (press - force(c, w, v))
 
 
+@compiled_inline
+def smooth_speed(c, delta, v):
+    """Y = v + (d_c/m) max(δ, 0): its rate g + z̈_s - (k_c/m) max(δ, 0)^p is continuous across impact and separation.
+
+    c : contact.Constants, or dimensionless_groups.Groups for a scaled state
+    """
+    return v + c.damping * max(delta, 0.0)
+
+
+@compiled_inline
+def speed_of_approach(c, delta, smooth):
+    """The speed of approach v from δ and Y, the inverse of `smooth_speed`."""
+    return smooth - c.damping * max(delta, 0.0)
+
+
+@compiled_inline
+def smooth_slope(c):
+    """∂Y/∂δ (1/s) at constant v in contact."""
+    return c.damping
+
+
+@compiled_inline
+def log_contraction(c, contact_time):
+    """Logarithm of the factor by which areas of states (δ, v) change during a time (s) with contact force."""
+    return -c.damping * contact_time
+
+
 @compiled_into_callers
 def impulse_of_tension(c, fastest, lapse):
     """Bound on the impulse per mass (m/s) of a force that pulls during a time `lapse` (s).
@@ -204,6 +231,20 @@ def expand_power(c, series, at, exponent):
         series[SCRATCH] = series[at + W] ** exponent
         for n in range(1, ORDER):
             series[SCRATCH + n] = power_term(series, at + W, SCRATCH, exponent, n)
+
+
+@compiled_inline
+def expand_stiffness(c, series, at):
+    """The rate -∂Ẏ/∂δ of a closed contact in the variable s, as a factor and the coefficients that it multiplies."""
+    factor = c.exponent * c.stiffness
+    power = row_of(series, SCRATCH)
+    if c.exponent == 1.5:
+        power = row_of(series, at + SQUARE)
+    elif c.exponent == 1.0:
+        power = row_of(series, at + W)
+    else:
+        expand_power(c, series, at, 2.0 * c.exponent - 1.0)
+    return factor, power
 
 
 @compiled_inline

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ...solver import contact_law
 from ...solver.jit import compiled, compiled_inline
 from ..stroboscopic_map import MAX_PERIOD
 
@@ -56,7 +57,7 @@ def new_trajectories(n: int) -> Trajectories:
 def distance_components(c, centre, factor, state):
     """Both components of R (x - centre), see attractor_table.AttractingOrbits."""
     along = state[0] - centre[0]
-    across = state[1] + c.damping * max(state[0], 0.0) - centre[1]
+    across = contact_law.smooth_speed(c, state[0], state[1]) - centre[1]
     return factor[0] * along + factor[1] * across, factor[2] * across
 
 

@@ -16,7 +16,7 @@ from functools import reduce
 import numpy as np
 
 from ... import linear_algebra
-from ...solver import contact
+from ...solver import contact, contact_law
 from ...solver.jit import compiled
 from ...solver.model import PSI0
 from ...solver.trajectory import BEGIN_OF_CYCLE, OK
@@ -67,7 +67,7 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius, inner, p
         angle = 2.0 * math.pi * i / POINTS
         across = radius * math.sin(angle) / factor[2]
         states[i, 0] = centre[0] + (radius * math.cos(angle) - factor[1] * across) / factor[0]
-        states[i, 1] = centre[1] + across - c.damping * max(states[i, 0], 0.0)
+        states[i, 1] = contact_law.speed_of_approach(c, states[i, 0], centre[1] + across)
     before = math.inf
     for n in range(1, periods + 1):
         size = gap = 0.0
@@ -131,12 +131,12 @@ def linearise(parameters: np.ndarray, tolerance: float, point: np.ndarray, perio
 
     period : excitation cycles
     """
-    damping = contact.constants(parameters, tolerance).damping
-    state = np.array([point[0], point[1] - damping * max(point[0], 0.0)])
+    c = contact.constants(parameters, tolerance)
+    state = np.array([point[0], contact_law.speed_of_approach(c, point[0], point[1])])
     status, matrices, _ = stroboscopic_map.monodromy(parameters, tolerance, state, period, 0.0)
     if status != OK:
         return None
-    end = np.array([state[0], state[1] + damping * max(state[0], 0.0)])
+    end = np.array([state[0], contact_law.smooth_speed(c, state[0], state[1])])
     return end, reduce(lambda whole, following: linear_algebra.product(following, whole), matrices)
 
 
@@ -173,8 +173,8 @@ def find_trapping_region(
     region : centre, shape (2,), and factor, shape (3,); None for none
     spent : excitation cycles
     """
-    damping, unit = contact.constants(parameters, tolerance).damping, np.array(length_and_speed_units(parameters))
-    centre = np.array([state[0], state[1] + damping * max(state[0], 0.0)])
+    c, unit = contact.constants(parameters, tolerance), np.array(length_and_speed_units(parameters))
+    centre = np.array([state[0], contact_law.smooth_speed(c, state[0], state[1])])
     periods, linear = PERIODS, linearise(parameters, tolerance, centre, period)
     if linear is None:
         return None, 0

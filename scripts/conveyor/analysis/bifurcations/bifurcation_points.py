@@ -17,7 +17,7 @@ from scipy.optimize import root
 
 from ... import linear_algebra
 from ...packing import as_rows
-from ...solver import contact
+from ...solver import contact, contact_law
 from ...solver.model import PSI0
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
@@ -84,12 +84,12 @@ def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | Non
 
 def y_for_velocity(groups: Groups, state: np.ndarray) -> np.ndarray:
     """Scaled (x, y) of (x, ẋ)."""
-    return np.array([state[0], state[1] + groups.damping * max(state[0], 0.0)])
+    return np.array([state[0], contact_law.smooth_speed(groups, state[0], state[1])])
 
 
 def velocity_for_y(groups: Groups, state: np.ndarray) -> np.ndarray:
     """(x, ẋ) of a scaled state (x, y)."""
-    return np.array([state[0], state[1] - groups.damping * max(state[0], 0.0)])
+    return np.array([state[0], contact_law.speed_of_approach(groups, state[0], state[1])])
 
 
 def conditions(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> np.ndarray:

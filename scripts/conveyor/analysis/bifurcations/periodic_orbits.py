@@ -14,7 +14,8 @@ from ... import linear_algebra
 from ...arguments import LARGEST_COORDINATE, LONGEST_PERIOD, check_array, check_count, check_number
 from ...packing import as_rows, check_rows
 from ...parameters import RANGES
-from ...solver.model import ACCELERATION, DAMPING, FREQUENCY, MASS
+from ...solver import contact, contact_law
+from ...solver.model import ACCELERATION, FREQUENCY
 from ...solver.trajectory import OK
 from .. import stroboscopic_map
 from ..dimensionless_groups import length_and_speed_units
@@ -60,17 +61,19 @@ class ReturnMap:
     def __init__(self, parameters: np.ndarray, period: int):
         self.parameters = parameters = as_rows(parameters).copy()
         self.period = period
-        self.damping = parameters[DAMPING] / parameters[MASS]
+        self.constants = contact.constants(parameters, ORBIT_TOLERANCE)
         self.unit = np.array([*length_and_speed_units(parameters), 1.0])
 
     def scaled(self, acceleration: float, state: np.ndarray) -> np.ndarray:
         """The unknowns of a state (δ in m, v in m/s) at an amplitude."""
-        return np.array([state[0], state[1] + self.damping * max(state[0], 0.0), acceleration]) / self.unit
+        return (
+            np.array([state[0], contact_law.smooth_speed(self.constants, state[0], state[1]), acceleration]) / self.unit
+        )
 
     def state(self, unknown: np.ndarray) -> np.ndarray:
         """The state (δ in m, v in m/s) of unknowns."""
         delta, y, _ = unknown * self.unit
-        return np.array([delta, y - self.damping * max(delta, 0.0)])
+        return np.array([delta, contact_law.speed_of_approach(self.constants, delta, y)])
 
     def strobes(self, unknown: np.ndarray) -> np.ndarray:
         """Unknowns after 1 … n cycles, shape (n, 3)."""
@@ -135,7 +138,8 @@ class ReturnMap:
         contact_times = features[:, stroboscopic_map.CONTACT_TIME]
         # The trace formula of the flow gives determinants that are lost in rounding.
         hidden = [stroboscopic_map.hides_determinant(one) for one in matrices]
-        determinants = np.where(hidden, np.exp(-self.damping * contact_times), linear_algebra.determinant(matrices))
+        contractions = np.exp(contact_law.log_contraction(self.constants, contact_times))
+        determinants = np.where(hidden, contractions, linear_algebra.determinant(matrices))
         trace, determinant = float(np.trace(matrix)), float(np.prod(determinants))
         root = cmath.sqrt(0.25 * trace * trace - determinant)
         first = max(0.5 * trace + root, 0.5 * trace - root, key=abs)

@@ -14,7 +14,7 @@ from ...columns import Columns
 from ...packing import as_rows, check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
-from ...solver import contact, trajectory
+from ...solver import contact, contact_law, trajectory
 from ...solver.jit import compiled
 from ...solver.model import FREQUENCY, PSI0
 from .. import stroboscopic_map
@@ -70,7 +70,7 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
         logs = stretches[n] if n >= 0 else discarded
         stretching.orthonormalise(tangent, logs)
         if logs[1] < logs[0] + LOST:
-            logs[1] = -c.damping * features[stroboscopic_map.CONTACT_TIME] - logs[0]
+            logs[1] = contact_law.log_contraction(c, features[stroboscopic_map.CONTACT_TIME]) - logs[0]
             tangent[1, 0], tangent[1, 1] = -tangent[0, 1], tangent[0, 0]
         if n >= 0:
             contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
@@ -228,8 +228,9 @@ def repeating_motion(
     if not period:
         return nothing
     status, matrices, features = stroboscopic_map.monodromy(parameters, tolerance, state, period, 0.0)
-    damping = contact.constants(parameters, tolerance).damping
-    logarithms = stretching.log_multipliers(matrices, -damping * features[:, stroboscopic_map.CONTACT_TIME])
+    constants = contact.constants(parameters, tolerance)
+    contractions = contact_law.log_contraction(constants, features[:, stroboscopic_map.CONTACT_TIME])
+    logarithms = stretching.log_multipliers(matrices, contractions)
     if status != trajectory.OK or not math.isfinite(logarithms[0]):
         return nothing
     return period, logarithms, float(features[:, stroboscopic_map.CONTACT_TIME].cumsum()[-1])
