@@ -11,7 +11,7 @@ from collections import namedtuple
 import numpy as np
 
 from ..parameters import PARAMETERS
-from . import model, plate, polynomial
+from . import contact_law, model, plate, polynomial
 from .contact_law import expand, expand_force, twice_elastic_energy
 from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SIZE
@@ -42,14 +42,11 @@ def constants(parameters, tolerance):
     gravity = parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION])
     exponent = parameters[model.EXPONENT]
     stiffness = parameters[model.STIFFNESS] / mass
-    static_penetration = (gravity / stiffness) ** (1.0 / exponent)
+    static_penetration = contact_law.static_penetration(stiffness, exponent, gravity)
     # cos(π/2) is not zero in floating point.
     along = math.cos(parameters[model.ANGLE]) if parameters[model.ANGLE] < 0.5 * math.pi else 0.0
     a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
     harmonics = parameters[len(PARAMETERS) :]
-    edge_w = 0.0
-    if exponent != 1.5 and exponent != 1.0:
-        edge_w = (tolerance * gravity / stiffness) ** (0.5 / exponent)
     return Constants(
         omega,
         1.0 / parameters[model.FREQUENCY],
@@ -70,7 +67,7 @@ def constants(parameters, tolerance):
         tolerance,
         math.sqrt(static_penetration),
         math.sqrt(2.0 * gravity * static_penetration),
-        edge_w,
+        contact_law.edge_of_spring(stiffness, exponent, tolerance * gravity),
         # rest_speed: at this tolerance slower impacts and separations are rest.
         10.0 * tolerance * math.sqrt(2.0 * gravity * static_penetration),
         # rest_force: weaker contact forces, per mass, are none.
@@ -120,10 +117,7 @@ def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
     ratio, root = limiting_term(series, first, lanes, c.tolerance, c.scale_v, c.stiffness, c.exponent, w0, v0)
     length = ratio**root
     if c.edge_w > 0.0 and series[at + SPRING] > 0.0:
-        # Beyond the radius of convergence of w^(2p+1), v may still be right, but the sign of the force is not.
-        of_spring = c.stiffness * abs(series[at + SPRING + ORDER - 1])
-        allowed = c.tolerance * (c.stiffness * series[at + SPRING] + w0 * (c.damping * abs(v0) + c.gravity))
-        length = min(length, (allowed / of_spring) ** (1.0 / (ORDER - 1)))
+        length = min(length, contact_law.length_of_spring(c, series, at, w0, v0))
     if plate.has_harmonics(c):
         length = min(length, plate.series_length(c, series, at))
     return length
@@ -158,7 +152,7 @@ def end_step(c, series, at, w0, v0, pulled, length):
             length = root
             event = SEPARATION
             shortened = True
-    if c.tension != model.TENSION_ALLOW and c.damping > 0.0:
+    if c.tension != model.TENSION_ALLOW and contact_law.can_pull(c):
         expand_force(c, series, at, -1.0 if pulled else 1.0)
         # The series has the factor w, and so a root of its own at a separation.
         end = length * (1.0 - LEAVE_IMPACT) if event == SEPARATION else length

@@ -90,6 +90,24 @@ def impulse_of_tension(c, fastest, lapse):
 
 
 @compiled_inline
+def can_pull(c):
+    """Whether the force of a closed contact can be negative."""
+    return c.damping > 0.0
+
+
+@compiled_inline
+def static_penetration(stiffness, exponent, press):
+    """The penetration δ (m) at which the spring carries a force per mass (m/s²); stiffness per mass."""
+    return (press / stiffness) ** (1.0 / exponent)
+
+
+@compiled_inline
+def edge_of_spring(stiffness, exponent, press):
+    """The √penetration edge_w (√m): the spring's force per mass (m/s²) is `press` there; 0 if no edge is needed."""
+    return 0.0 if exponent == 1.5 or exponent == 1.0 else (press / stiffness) ** (0.5 / exponent)
+
+
+@compiled_inline
 def twice_elastic_energy(stiffness, exponent, w):
     """Twice the energy per mass (m²/s²) of the spring at w = √penetration."""
     square = w * w
@@ -231,6 +249,17 @@ def expand_power(c, series, at, exponent):
         series[SCRATCH] = series[at + W] ** exponent
         for n in range(1, ORDER):
             series[SCRATCH + n] = power_term(series, at + W, SCRATCH, exponent, n)
+
+
+@compiled_inline
+def length_of_spring(c, series, at, w0, v0):
+    """Length of a step in the variable s up to which the spring's series is accurate, for w0 > edge_w and other p.
+
+    Beyond the radius of convergence of w^(2p+1), v may still be right, but the sign of the force is not.
+    """
+    last = c.stiffness * abs(series[at + SPRING + ORDER - 1])
+    allowed = c.tolerance * (c.stiffness * series[at + SPRING] + w0 * (c.damping * abs(v0) + c.gravity))
+    return (allowed / last) ** (1.0 / (ORDER - 1))
 
 
 @compiled_inline
