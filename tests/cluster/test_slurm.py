@@ -15,7 +15,7 @@ pytestmark = pytest.mark.skipif(OBSTACLE is not None, reason=f"no Slurm can be s
 
 # The sweep of the guide, in three shards.
 MINE = yaml.safe_load(re.search(r"```yaml\n(.*?)```", GUIDE.read_text(), re.DOTALL)[1])
-OVERLAY = {**MINE, "sharing": {"job_seconds": 4.1, "seconds": {"start": {"alone": [1, 1]}}}}
+OVERLAY = {**MINE, "sharing": {"job_seconds": 1e-6, "most_jobs": 3}}
 TABLE, FIGURE = "results/sweeps/mine.parquet", "figures/fig22.pdf"
 SHARD = "rule_shards_wildcards_mine_1"  # as Snakemake names its job to Slurm
 COMPUTING = 120.0  # s

@@ -60,10 +60,7 @@ MAP = {
 POINTS = 50
 
 
-def rows_per_shard(rows: int) -> dict:
-    """A config with an estimated cost of one second per row, so that a shard has this number of rows."""
-    start = {known: [1, 1] for known in ("alone", "chaos", "orbits")}
-    return {"job_seconds": 0.5 * rows + 0.1, "seconds": {"start": start}}
+SHORTEST = 1e-6  # s, duration of a job in which no row fits, so that only `most_jobs` limits the number of jobs
 
 
 @pytest.fixture(scope="module")
@@ -73,7 +70,7 @@ def swept(built):
     sweeps = {"mine": MINE, "mixed": MIXED}
     whole = {"prefix": "whole", "sweeps": sweeps}
     built.under(whole).make("--cores", "2", *(f"results/whole/sweeps/{name}.parquet" for name in sweeps))
-    cut = {"prefix": "cut", "sharing": rows_per_shard(10), "sweeps": sweeps}
+    cut = {"prefix": "cut", "sharing": {"job_seconds": SHORTEST, "most_jobs": 3}, "sweeps": sweeps}
     built.under(cut).make("--cores", "1", "results/cut/sweeps/mixed.parquet")
     return lambda prefix, name: built.folder / f"results/{prefix}/sweeps/{name}.parquet"
 
@@ -117,7 +114,7 @@ def test_equal_bytes_for_any_shards_and_cores(swept):
 
 def test_a_large_sweep_has_few_jobs(built):
     many = {"axes": {"z0": {"start": 0.0, "stop": 1.0e-4, "num": 2001}}}
-    overlay = {"sharing": rows_per_shard(1), "sweeps": {"many": many}}
+    overlay = {"sharing": {"job_seconds": SHORTEST}, "sweeps": {"many": many}}
     assert 400 <= built.under(overlay).planned("results/sweeps/many.parquet")["shards"] <= 500
 
 
