@@ -91,7 +91,7 @@ def test_the_article_shows_all_figures_of_the_paper():
         assert f"fig{number:02d}.pdf)" in text
     for claim in CONFIG["claims"]:
         assert f"\n| {claim} |" in text
-        assert f"results/claims/{claim}.md" in text
+    assert "\n| everything | " in text  # the cost of the build
 
 
 def test_the_article_is_made_from_its_text(monkeypatch):
