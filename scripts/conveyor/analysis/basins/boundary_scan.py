@@ -123,7 +123,9 @@ def _bisect(states_at, low, high, below, above, resolution):
     states_at : gives the states of some intervals, by their places, at values of the quantity
     low, high, below, above : ends of the intervals and the states there, shape (k,); replaced
     """
-    while (wide := np.flatnonzero(high - low > resolution)).size:
+    # Neighbouring numbers have none between them, whatever the resolution.
+    smallest = 2.0 * np.spacing(np.maximum(np.abs(low), np.abs(high)))
+    while (wide := np.flatnonzero(high - low > np.maximum(resolution, smallest))).size:
         middle = 0.5 * (low[wide] + high[wide])
         state = states_at(wide, middle)
         lower = state == below[wide]

@@ -113,3 +113,10 @@ def test_a_change_is_located_in_any_parameter(resolution):
     np.testing.assert_allclose(heights, [2e-4, 1e-4, np.nan], atol=1e-6 * resolution)
     amplitudes = boundary_scan.locate_change(rows, "acceleration", 2.0, monotone, resolution)
     np.testing.assert_allclose(amplitudes, [4e-3 / 1.9e-4, 4e-3 / 1.01e-4, np.nan], atol=resolution)
+
+
+def test_bisection_ends_at_neighbouring_numbers():
+    rows = conveyors(40.0)
+    rows["z0"] = 1.01e-4
+    (height,) = boundary_scan.locate_change(rows, "z0", 2e-5, monotone, 1e-30)
+    assert height == pytest.approx(1e-4, rel=1e-15)
