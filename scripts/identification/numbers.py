@@ -34,8 +34,8 @@ from pipeline.rule_log import JobError
 
 # Parameters of the tables with their units, and searched parameters in order.
 PARAMETERS = {name: UNITS[name] for name in ("friction", "damping", "stiffness", "angle")}
-SEARCHED = ("friction", "loss", "group", "angle")
-CONTACT = [SEARCHED.index("loss"), SEARCHED.index("group")]
+SPARE = ("friction", "loss", "group", "angle")
+CONTACT = [SPARE.index("loss"), SPARE.index("group")]
 CONVERGED, EULER = "converged", "euler"
 MM, CM = 1e3, 1e2
 FINE = 1001  # heights at which the curve through the edges is evaluated

@@ -21,7 +21,7 @@ from conveyor.elementary import exp, log
 from identification import numbers as claims
 from identification.edges import VERTICAL
 from identification.findings import DOWN_ALONE, VELOCITIES, misfit
-from identification.numbers import CONVERGED, EULER, PARAMETERS, SEARCHED, searched, values_of
+from identification.numbers import CONVERGED, EULER, PARAMETERS, SPARE, searched, values_of
 from pipeline import fields
 from pipeline.credible_intervals import interval, open_ends, quantiles
 from pipeline.importance_sampling import EXACT, effective_number, log_sum, monte_carlo_error, normalize, sample
@@ -140,7 +140,7 @@ def infer(
         for number in range(SEARCHES)
     }
     least = min(-2.0 * one.log_density.max() for one in found.values())
-    scale = max(least / (len(numbers) - len(SEARCHED)), 1.0)
+    scale = max(least / (len(numbers) - len(SPARE)), 1.0)
     random = np.random.default_rng(seed)
     samples, fits = [], []
     for (tension, number), states in found.items():
@@ -172,7 +172,7 @@ def infer(
     return table, pd.DataFrame(fits).assign(
         numbers=len(numbers),
         scale=scale,
-        region=scale * chi2.ppf(CONFIDENCE, len(SEARCHED)),
+        region=scale * chi2.ppf(CONFIDENCE, len(SPARE)),
         share=by_tension.sum().to_numpy(),
         size=by_tension.agg(lambda weights: effective_number(weights / weights.sum())).to_numpy(),
     )
@@ -180,7 +180,7 @@ def infer(
 
 def bounds_of(settings: dict) -> np.ndarray:
     """Logarithms of the least and the largest value of each searched parameter, shape (2, 4)."""
-    return log(np.array([settings["bounds"][name] for name in SEARCHED]).T)
+    return log(np.array([settings["bounds"][name] for name in SPARE]).T)
 
 
 def interval_rows(samples: pd.DataFrame, settings: dict) -> pd.DataFrame:

@@ -59,7 +59,7 @@ def expand_tangents(c, series, expansions, free):
     free : whether the contact force is left out
     """
     w = row_of(series, FIRST + workspace.W)
-    stiffness, stiff = contact_law.expand_stiffness(c, series, FIRST)
+    stiffness, stiff = contact_law.expand_stiffness(c, series, FIRST, workspace.SPARE)
     slope = contact_law.smooth_slope(c)
     if free:
         stiffness = slope = 0.0

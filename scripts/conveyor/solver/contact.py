@@ -15,7 +15,7 @@ from . import contact_law, model, plate, polynomial
 from .contact_law import expand, expand_force, twice_elastic_energy
 from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SIZE
-from .workspace import COSINE, FIRST, SCRATCH, SINE, SPRING, STEP, T, V, W
+from .workspace import COSINE, FIRST, SINE, SPARE, SPRING, STEP, T, V, W
 
 # Events that end a contact step before its full length.
 NOTHING, SEPARATION, FORCE_SIGN = range(3)
@@ -137,9 +137,9 @@ def end_step(c, series, at, w0, v0, pulled, length):
     shortened = False
     if c.edge_w > 0.0 and w0 <= c.edge_w and w > c.edge_w:
         for n in range(SIZE):
-            series[SCRATCH + n] = -series[at + W + n]
-        series[SCRATCH] += c.edge_w * (1.0 + 1e-9)
-        length = min(length, polynomial.first_root(series, SCRATCH, 0.0, length, polynomial.LEAVE))
+            series[SPARE + n] = -series[at + W + n]
+        series[SPARE] += c.edge_w * (1.0 + 1e-9)
+        length = min(length, polynomial.first_root(series, SPARE, 0.0, length, polynomial.LEAVE))
         shortened = True
     elif w <= 0.0:
         # w starts upwards at an impact and falls through zero once: w'' has the sign of w where the plate presses on.
@@ -153,10 +153,10 @@ def end_step(c, series, at, w0, v0, pulled, length):
             event = SEPARATION
             shortened = True
     if c.tension != model.TENSION_ALLOW and contact_law.can_pull(c):
-        expand_force(c, series, at, -1.0 if pulled else 1.0)
+        expand_force(c, series, at, SPARE, -1.0 if pulled else 1.0)
         # The series has the factor w, and so a root of its own at a separation.
         end = length * (1.0 - LEAVE_IMPACT) if event == SEPARATION else length
-        root = polynomial.first_root(series, SCRATCH, 0.0, end, polynomial.LEAVE)
+        root = polynomial.first_root(series, SPARE, 0.0, end, polynomial.LEAVE)
         if root < end:
             length = root
             event = FORCE_SIGN

@@ -14,7 +14,7 @@ from .polynomial import ORDER, SIZE, value_in_lane
 from .trajectory import MAX_PIECES
 
 # Eight lanes take about a tenth less time than four, also in code for registers of four numbers. A NumPy integer, see
-# polynomial.SHIFTED.
+# polynomial.FIRST_ROW.
 LANES = np.int64(8)
 
 # The rows of the memory, which has a column for each lane. The first nine are the arguments of `expand_hertz`, in its

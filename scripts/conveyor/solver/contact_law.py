@@ -22,7 +22,7 @@ from .jit import compiled, compiled_inline, compiled_into_callers, fma
 from .plate import harmonic_rows, numbers_of  # noqa: F401 - for generated code
 from .polynomial import ORDER, SIZE, place
 from .unrolled import square
-from .workspace import COSINE, LIFT_W, SCRATCH, SINE, SPRING, SQUARE, T, V, W
+from .workspace import COSINE, LIFT_W, SINE, SPRING, SQUARE, T, V, W
 
 # The letters of the rows of a step in the generated code.
 LETTERS = {W: "w", T: "t", V: "v", SINE: "s", COSINE: "c", SQUARE: "q", SPRING: "p", LIFT_W: "x"}
@@ -241,14 +241,14 @@ def row_of(series, row):
 
 
 @compiled
-def expand_power(c, series, at, exponent):
-    """Fill the row SCRATCH with the series of w^exponent along a step; it is 0 where the spring is switched off."""
+def expand_power(c, series, at, row, exponent):
+    """Fill a row with the series of w^exponent along a step; it is 0 where the spring is switched off."""
     for n in range(SIZE):
-        series[SCRATCH + n] = 0.0
+        series[row + n] = 0.0
     if series[at + W] > c.edge_w:
-        series[SCRATCH] = series[at + W] ** exponent
+        series[row] = series[at + W] ** exponent
         for n in range(1, ORDER):
-            series[SCRATCH + n] = power_term(series, at + W, SCRATCH, exponent, n)
+            series[row + n] = power_term(series, at + W, row, exponent, n)
 
 
 @compiled_inline
@@ -263,24 +263,27 @@ def length_of_spring(c, series, at, w0, v0):
 
 
 @compiled_inline
-def expand_stiffness(c, series, at):
-    """The rate -∂Ẏ/∂δ of a closed contact in the variable s, as a factor and the coefficients that it multiplies."""
+def expand_stiffness(c, series, at, row):
+    """The rate -∂Ẏ/∂δ of a closed contact in the variable s, as a factor and the coefficients that it multiplies.
+
+    The coefficients are in a row of the step or, for most exponents, in the given row.
+    """
     factor = c.exponent * c.stiffness
-    power = row_of(series, SCRATCH)
+    power = row_of(series, row)
     if c.exponent == 1.5:
         power = row_of(series, at + SQUARE)
     elif c.exponent == 1.0:
         power = row_of(series, at + W)
     else:
-        expand_power(c, series, at, 2.0 * c.exponent - 1.0)
+        expand_power(c, series, at, row, 2.0 * c.exponent - 1.0)
     return factor, power
 
 
 @compiled_inline
-def expand_force(c, series, at, scale):
-    """Fill the row SCRATCH with the series of w scale F_c/m along a step, which has the sign of the force."""
+def expand_force(c, series, at, row, scale):
+    """Fill a row with the series of w scale F_c/m along a step, which has the sign of the force."""
     for n in range(ORDER):
         damper = c.damping * (n + 1) * series[place(at + SQUARE, n + 1)]
         force = c.stiffness * series[place(at + SPRING, n)] + damper
-        series[place(SCRATCH, n)] = scale * force
-    series[SCRATCH + ORDER] = 0.0
+        series[place(row, n)] = scale * force
+    series[row + ORDER] = 0.0

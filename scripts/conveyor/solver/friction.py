@@ -18,7 +18,7 @@ from . import plate, polynomial
 from .contact_law import expand_force, impulse_of_tension
 from .jit import compiled_inline, compiled_into_callers
 from .polynomial import ORDER, place
-from .workspace import SCRATCH
+from .workspace import SPARE
 
 
 @compiled_inline
@@ -66,10 +66,10 @@ def slip_end(c, step, segment, slip, leave):
     """
     series, mu = step.series, segment.mu
     fall = mu * c.gravity - segment.sigma * c.downhill
-    plate.expand_velocities(c, series, step.at, segment.sigma, -mu, mu, -fall)
-    series[SCRATCH] = 0.0
-    series[SCRATCH] = segment.sigma * slip - polynomial.value(series, SCRATCH, segment.s)
-    return polynomial.first_root(series, SCRATCH, segment.s, step.piece.length, leave)
+    plate.expand_velocities(c, series, step.at, SPARE, segment.sigma, -mu, mu, -fall)
+    series[SPARE] = 0.0
+    series[SPARE] = segment.sigma * slip - polynomial.value(series, SPARE, segment.s)
+    return polynomial.first_root(series, SPARE, segment.s, step.piece.length, leave)
 
 
 @compiled_into_callers
@@ -90,14 +90,14 @@ def stick_end(c, step, segment):
     for direction in (-1.0, 1.0):
         if c.downhill != 0.0 or direction * first <= 0.0 or not pushed:
             slack = c.static_friction * c.rest_force + direction * c.downhill
-            expand_force(c, series, at, c.static_friction)
-            plate.add_pull(c, series, at, direction, slack)
-            root = polynomial.first_root(series, SCRATCH, segment.s, length, polynomial.LEAVE)
+            expand_force(c, series, at, SPARE, c.static_friction)
+            plate.add_pull(c, series, at, SPARE, direction, slack)
+            root = polynomial.first_root(series, SPARE, segment.s, length, polynomial.LEAVE)
             if root < end:
                 for n in range(ORDER):
-                    series[place(SCRATCH, n)] *= -1.0
+                    series[place(SPARE, n)] *= -1.0
                 end = root
-                lasting = polynomial.first_root(series, SCRATCH, root, length, polynomial.LEAVE) == math.inf
+                lasting = polynomial.first_root(series, SPARE, root, length, polynomial.LEAVE) == math.inf
     return end, lasting
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from .jit import compiled, compiled_inline, compiled_into_callers, copy, number_at
 from .polynomial import ORDER, SIZE, place
 from .unrolled import product, total
-from .workspace import ALONG, COSINE, HARMONICS, LIFT_W, NORMAL, SCRATCH, SINE, T, V, W
+from .workspace import ALONG, COSINE, HARMONICS, LIFT_W, NORMAL, SINE, T, V, W
 
 # A harmonic in packed parameters: its order k and, as shares of the fundamental's amplitudes, the coefficients of
 # cos kθ and -sin kθ in the accelerations along the track and normal to it.
@@ -354,26 +354,26 @@ def series_length(c, series, at):
 
 
 @compiled_into_callers
-def expand_velocities(c, series, at, along, normal, speed, time):
-    """Fill the row SCRATCH with the series of along ẋ_s + normal ż_s + speed v + time t along a step."""
+def expand_velocities(c, series, at, row, along, normal, speed, time):
+    """Fill a row with the series of along ẋ_s + normal ż_s + speed v + time t along a step."""
     straight, turned_part = along * c.a_x / c.omega, 0.0
     if has_harmonics(c):
         for n in range(ORDER + 1):
             plate = straight * series[place(at + ALONG, n)] + normal * c.a_z / c.omega * series[place(at + NORMAL, n)]
-            series[place(SCRATCH, n)] = plate + speed * series[place(at + V, n)] + time * series[place(at + T, n)]
+            series[place(row, n)] = plate + speed * series[place(at + V, n)] + time * series[place(at + T, n)]
         return
     straight, turned_part = straight * c.cos_shift + normal * c.a_z / c.omega, straight * c.sin_shift
     for n in range(ORDER + 1):
         velocity = straight * series[place(at + SINE, n)] + speed * series[place(at + V, n)]
-        series[place(SCRATCH, n)] = velocity + time * series[place(at + T, n)]
+        series[place(row, n)] = velocity + time * series[place(at + T, n)]
     if turned_part != 0.0:  # a loop of its own, because the paper's conveyor does not need it
         for n in range(ORDER + 1):
-            series[place(SCRATCH, n)] += turned_part * series[place(at + COSINE, n)]
+            series[place(row, n)] += turned_part * series[place(at + COSINE, n)]
 
 
 @compiled_into_callers
-def add_pull(c, series, at, direction, slack):
-    """Add the series of w (direction ẍ_s + slack) along a step to the row SCRATCH.
+def add_pull(c, series, at, row, direction, slack):
+    """Add the series of w (direction ẍ_s + slack) along a step to a row.
 
     The product of w and an acceleration is the derivative of the velocity in the variable s.
     """
@@ -381,12 +381,12 @@ def add_pull(c, series, at, direction, slack):
     if has_harmonics(c):
         for n in range(ORDER):
             plate = pull / c.omega * (n + 1) * series[place(at + ALONG, n + 1)]
-            series[place(SCRATCH, n)] += plate + slack * series[place(at + W, n)]
+            series[place(row, n)] += plate + slack * series[place(at + W, n)]
         return
     straight, turned_part = pull * c.cos_shift, pull * c.sin_shift / c.omega
     for n in range(ORDER):
-        total = series[place(SCRATCH, n)] + straight * series[place(at + LIFT_W, n)]
-        series[place(SCRATCH, n)] = total + slack * series[place(at + W, n)]
+        total = series[place(row, n)] + straight * series[place(at + LIFT_W, n)]
+        series[place(row, n)] = total + slack * series[place(at + W, n)]
     if turned_part != 0.0:
         for n in range(ORDER):
-            series[place(SCRATCH, n)] += turned_part * (n + 1) * series[place(at + COSINE, n + 1)]
+            series[place(row, n)] += turned_part * (n + 1) * series[place(at + COSINE, n + 1)]

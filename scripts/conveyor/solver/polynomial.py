@@ -28,10 +28,9 @@ MAX_PIECES = 1000
 
 # Answers of a search.
 FOUND, ABSENT, OPEN = range(3)
-# The functions that search for roots overwrite the first row of every array.
-# It is a NumPy integer, and so are all places counted from it: for a Python integer in a call, numba would compile the
-# function once more, for this value alone.
-SHIFTED = np.int64(0)
+# The place of the first row of an array. It is a NumPy integer, and so are all places counted from it: for a Python
+# integer in a call, numba would compile the function once more, for this value alone.
+FIRST_ROW = np.int64(0)
 
 
 @compiled_inline
@@ -100,13 +99,15 @@ def root_of_crossing(series, row, low, high):
 
 
 @compiled
-def shift(series, row, s):
-    """Write the expansion of a row about `s` into the row SHIFTED."""
+def expand_about(series, row, s):
+    """The expansion of a polynomial about `s`, as an array of its own."""
+    shifted = np.empty(SIZE)
     for n in range(SIZE):
-        series[place(SHIFTED, n)] = series[place(row, n)]
+        shifted[place(FIRST_ROW, n)] = series[place(row, n)]
     for k in range(ORDER):
         for n in range(ORDER - 1, k - 1, -1):
-            series[place(SHIFTED, n)] += s * series[place(SHIFTED, n + 1)]
+            shifted[place(FIRST_ROW, n)] += s * shifted[place(FIRST_ROW, n + 1)]
+    return shifted
 
 
 @compiled
@@ -190,7 +191,7 @@ def first_root(series, row, start, end, leave):
         # Bounds on a shorter piece, from the expansion about its beginning, are tighter.
         piece *= 2.0 if answer == ABSENT else 0.25
         piece = min(piece, end - s)
-        shift(series, row, s)
-        answer, ahead, shortest = search(series, SHIFTED, 0.0, piece, shortest, noise)
+        shifted = expand_about(series, row, s)
+        answer, ahead, shortest = search(shifted, FIRST_ROW, 0.0, piece, shortest, noise)
         s = end if answer == ABSENT and piece == end - s else s + ahead
     return math.inf

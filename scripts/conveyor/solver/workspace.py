@@ -1,15 +1,15 @@
 """The layout of a workspace: an array of rows of Taylor coefficients (see polynomial).
 
-The first row belongs to the search for roots, and SCRATCH is free. HARMONICS is the first of the rows for cosine and
-sine of each harmonic of the plate, which last as long as one expansion. Each contact step has STEP coefficients from
-its first row on, in the rows at + W, at + T and so forth.
+The row SPARE is for one more polynomial; callers pass it to the functions that fill it. HARMONICS is the first of the
+rows for cosine and sine of each harmonic of the plate, which last as long as one expansion. Each contact step has STEP
+coefficients from its first row on, in the rows at + W, at + T and so forth.
 """
 
 from ..parameters import MOST_HARMONICS
-from .polynomial import SHIFTED, SIZE
+from .polynomial import FIRST_ROW, SIZE
 
-SCRATCH = SHIFTED + SIZE
-HARMONICS = SCRATCH + SIZE
+SPARE = FIRST_ROW
+HARMONICS = SPARE + SIZE
 FIRST = HARMONICS + 2 * MOST_HARMONICS * SIZE
 # The rows of a step: w, t, v, sine and cosine of the phase, w², w^(2p+1), and w times the plate's normal acceleration,
 # divided by its amplitude. The last two belong to plates with harmonics: their velocities normal to the track and along

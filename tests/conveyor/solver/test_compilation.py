@@ -15,9 +15,9 @@ import numpy as np
 from conveyor.solver import polynomial
 from conveyor.solver.compilation import compile_seconds
 
-series = np.zeros(2 * polynomial.SIZE)
-series[polynomial.SIZE : polynomial.SIZE + 2] = 1.0, -2.0
-print(polynomial.first_root(series, polynomial.SIZE, 0.0, 1.0, polynomial.LEAVE))
+series = np.zeros(polynomial.SIZE)
+series[:2] = 1.0, -2.0
+print(polynomial.first_root(series, polynomial.FIRST_ROW, 0.0, 1.0, polynomial.LEAVE))
 print(compile_seconds())
 """
 OTHER = """

@@ -8,7 +8,7 @@ import pytest
 
 from conveyor.solver import polynomial
 
-ROW = polynomial.SIZE  # behind the row that searches overwrite
+ROW = polynomial.FIRST_ROW
 
 
 @numba.njit
@@ -17,11 +17,11 @@ def root_of_crossing(series, row, low, high):
 
 
 def series_of(roots):
-    """Rows as in the solver: the coefficients of Π (1 - s/r), positive at 0, in the row after the free row."""
+    """Rows as in the solver: the coefficients of Π (1 - s/r), positive at 0."""
     coefficients = np.ones(1)
     for root in roots:
         coefficients = np.convolve(coefficients, [1.0, -1.0 / root])
-    series = np.zeros(2 * polynomial.SIZE)
+    series = np.zeros(polynomial.SIZE)
     series[ROW : ROW + len(coefficients)] = coefficients.real
     return series
 
