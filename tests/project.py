@@ -41,7 +41,6 @@ STAGES = (
     "calibration",
     "accuracy",
     "claims",
-    "identification",
     "figures",
     "docs",
 )

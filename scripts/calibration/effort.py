@@ -8,6 +8,7 @@ FIRST = 256  # sets of parameters of the first round, which fills the ranges
 POINTS = 96  # of each further round
 ROUNDS = 20  # further rounds at most
 ENOUGH = 100.0  # effective number of samples at which a search ends; the ends of an interval move little with more
+SEARCHES, MOST_SEARCHES = 4, 8  # independent ones, at first and at most
 # Effective number of samples from which intervals are given. A quick trial (an effort below 1) gives them with fewer,
 # and the page says so.
 EFFECTIVE, EFFECTIVE_OF_TRIAL = 40.0, 2.0

@@ -9,24 +9,24 @@ from typing import NamedTuple
 
 import numpy as np
 
+from calibration.credible_intervals import CONFIDENCE, open_ends, quantiles, summarize, with_errors
+from calibration.effort import MOST_SEARCHES, SEARCHES
+from calibration.importance_sampling import Sample, monte_carlo_error, pooled, sample
 from calibration.measurements import Measurement
 from calibration.predicted import Conditions, conditions_of, log_densities, velocities, widths
 from calibration.search_space import LOGARITHMIC, bounds_of, values_at
 from conveyor import UNITS
 from conveyor.elementary import exp, log
-from pipeline.credible_intervals import interval, open_ends, quantiles
-from pipeline.importance_sampling import Sample, monte_carlo_error, pooled, sample
 
 DETERMINED, OPEN, NOT_DETERMINED = "determined", "open to one side", "not determined"
 TOO_FEW, DISAGREEING = "too few effective samples", "searches disagree"
-# Independent searches, at first and at most. Further ones follow while the Monte Carlo error of a best value, or of an
-# end of an interval, is more than this share of the interval.
-SEARCHES, MOST_SEARCHES, REPEATABLE = 4, 8, 0.25
+# Further searches follow while the Monte Carlo error of a best value, or of an end of an interval, is more than this
+# share of the interval.
+REPEATABLE = 0.25
 # A set of parameters gets no further parts if even the first ones are this far below the best logarithmic likelihood.
 HOPELESS = 30.0
 # The search first takes measurements for less accurate than they are, so that it finds its way from far away.
 INFLATIONS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0)
-CONFIDENCE = 0.95  # of the intervals
 RESOLVED = 1.0 / (1.0 - CONFIDENCE)  # effective number of samples of which one lies outside an interval
 WIDE = 0.8  # of the searched range: a wider interval determines nothing
 
@@ -120,40 +120,41 @@ def centre(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
     return np.array([quantiles(column, weights, [0.5])[0] for column in points.T])
 
 
-def summarize(posterior: Sample, weights: np.ndarray, settings: dict) -> np.ndarray:
+def summary_of(posterior: Sample, weights: np.ndarray, settings: dict) -> np.ndarray:
     """Best value and ends of the interval of each parameter, or their logarithms (LOGARITHMIC), shape (d, 3).
+
+    The best values belong to the medians of the coordinates.
 
     weights : of the points, shape (n,), with the sum 1
     """
-    best = values_at(centre(posterior.points, weights)[None], settings)
-    values, rows = values_at(posterior.points, settings), []
-    for name in settings["parameters"]:
-        middle, own = best[name][0], values[name]
-        if name in LOGARITHMIC:
-            middle, own = log(middle), log(own)
-        rows.append([middle, *interval(own, weights, CONFIDENCE)])
-    return np.array(rows)
+
+    def columns(points: np.ndarray) -> list[np.ndarray]:
+        return [log(one) if name in LOGARITHMIC else one for name, one in values_at(points, settings).items()]
+
+    found = summarize(columns(posterior.points), weights)
+    found[:, 0] = np.concatenate(columns(centre(posterior.points, weights)[None]))
+    return found
 
 
 def errors(posterior: Sample, settings: dict) -> np.ndarray:
-    """Monte Carlo errors of what `summarize` gives, shape (d, 3)."""
+    """Monte Carlo errors of what `summary_of` gives, shape (d, 3)."""
     return monte_carlo_error(
-        posterior.weights, posterior.search, lambda weights: summarize(posterior, weights, settings)
+        posterior.weights, posterior.search, lambda weights: summary_of(posterior, weights, settings)
     )
 
 
 def agree(posterior: Sample, settings: dict) -> bool:
     """Whether another set of searches would give nearly the same best values and intervals."""
-    summary = summarize(posterior, posterior.weights, settings)
+    summary = summary_of(posterior, posterior.weights, settings)
     return bool(np.all(errors(posterior, settings) <= REPEATABLE * (summary[:, 2] - summary[:, 1])[:, None]))
 
 
 def summarize_parameters(posterior: Sample, settings: dict) -> list[dict]:
     """The rows of the table of parameters."""
     bounds, middle = bounds_of(settings), centre(posterior.points, posterior.weights)
-    summary, deviations = summarize(posterior, posterior.weights, settings), errors(posterior, settings)
+    summary, deviations = summary_of(posterior, posterior.weights, settings), errors(posterior, settings)
     rows, reliable = [], posterior.size >= settings["effective"]
-    for column, name in enumerate(settings["parameters"]):
+    for column, name in enumerate(settings["ranges"]):
         is_log = name in LOGARITHMIC
         ends = np.tile(middle, (2, 1))
         ends[:, column] = bounds[:, column]
@@ -176,16 +177,14 @@ def summarize_parameters(posterior: Sample, settings: dict) -> list[dict]:
         if name != "damping":
             low, high = max(low, range_low), min(high, range_high)
         low, high = min(low, best), max(high, best)
-        scale = np.array([best, low, high]) if is_log else np.ones(3)
-        best_error, low_error, high_error = scale * deviations[column]
-        known = {"low": low, "low_error": low_error, "high": high, "high_error": high_error}
+        found = with_errors(np.array([best, low, high]), deviations[column], is_log)
+        if not reliable:
+            found |= dict.fromkeys(("low", "low_error", "high", "high_error"), math.nan)
         rows.append(
             {
                 "parameter": name,
                 "unit": UNITS[name],
-                "best": best,
-                "best_error": best_error,
-                **(known if reliable else dict.fromkeys(known, math.nan)),
+                **found,
                 "range_low": range_low,
                 "range_high": range_high,
                 "status": status if reliable else TOO_FEW,

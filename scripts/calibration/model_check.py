@@ -18,6 +18,7 @@ import math
 import numpy as np
 from scipy.stats import rankdata
 
+from calibration.importance_sampling import LEAST, Sample
 from calibration.inference import Data, centre, draw, search
 from calibration.measurements import Measurement
 from calibration.predicted import deviations, log_densities, velocities, widths
@@ -25,7 +26,6 @@ from calibration.search_space import values_at
 from conveyor import UNITS
 from conveyor.elementary import log
 from conveyor.linear_algebra import dot, product
-from pipeline.importance_sampling import LEAST, Sample
 
 SEARCHES_OF_ALTERNATIVE = (2, 2)  # an evidence needs no interval, and hardly differs between searches
 DECISIVE = (
@@ -124,18 +124,18 @@ def compare_alternatives(
     found: Sample, data: Data, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> list[dict]:
     """The rows of the table of alternatives: the posterior with one more parameter, against the one without."""
-    stated = {*settings["parameters"], *(name for one in data.measured for name in one.changed)}
+    stated = {*settings["ranges"], *(name for one in data.measured for name in one.changed)}
     random = np.random.default_rng(settings["seed"])
     rows = []
     for name, difference in settings["alternatives"].items():
         if name in stated:
             continue
         ends = [settings["model"][name] - difference, settings["model"][name] + difference]
-        own = settings | {"parameters": [*settings["parameters"], name], "ranges": settings["ranges"] | {name: ends}}
+        own = settings | {"ranges": settings["ranges"] | {name: ends}}
         # An evidence needs fewer samples than intervals. A search that has not found them underestimates it.
         own |= {"enough": settings["effective"], "rounds": (settings["rounds"] + 1) // 2}
         near = None
-        if found.size >= LEAST * len(settings["parameters"]):
+        if found.size >= LEAST * len(settings["ranges"]):
             # What is found without the alternative shows where to begin, with any value of it.
             known = found.points[draw(found, settings["samples"])]
             near = np.column_stack([known, random.uniform(*ends, len(known))])

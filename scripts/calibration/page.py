@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pandas as pd
 
+from calibration.credible_intervals import CONFIDENCE
 from calibration.effort import sizes_of
 from calibration.inference import (
-    CONFIDENCE,
     DETERMINED,
     DISAGREEING,
     NOT_DETERMINED,

@@ -109,7 +109,7 @@ def predict(
         settings["model"],
     )
     chosen = samples.iloc[np.linspace(0, len(samples) - 1, settings["predicted"]).round().astype(int)]
-    values = {name: chosen[name].to_numpy() for name in settings["parameters"]}
+    values = {name: chosen[name].to_numpy() for name in settings["ranges"]}
     options = {"parts": settings["predicted_parts"], "seed": settings["seed"], "threads": threads}
     found = velocities(values, conditions, settings, **options, progress=progress)
     random = np.random.default_rng(settings["seed"])

@@ -1,5 +1,6 @@
-"""Settings of the stage calibration: parameters from measured velocities, with units and ranges."""
+"""Settings of the stage calibration: parameters from measured velocities, or from the paper's numbers."""
 
+from functools import partial
 from typing import Annotated, NotRequired
 
 from pydantic import Field
@@ -18,6 +19,23 @@ RANGES_OF_CALIBRATION = {
     )
     for name in CALIBRATED
 }
+# Quantities of claims that scripts/calibration/paper_numbers.py computes for any conveyor, and that the search fits.
+NUMBERS_OF_CLAIMS = (
+    "C01.critical_amplitude",
+    "C02.lower_end",
+    "C02.upper_end",
+    "C04.largest_height",
+    "C05.velocity_at_lower_end",
+    "C05.velocity_at_upper_end",
+    "C06.fall",
+    "C07.height",
+    "C08.height",
+    "C09.error",
+    "C10.lower_end",
+    "C10.upper_end",
+)
+IDENTIFICATION_TABLES = ("edges", "numbers", "fits", "intervals", "samples", "frictions")
+CALIBRATION_TABLES = ("parameters", "samples", "fit", "alternatives", "prediction", "next")
 
 
 class Calibration(TypedDict):
@@ -38,8 +56,19 @@ class Calibration(TypedDict):
     seed: Seed
 
 
+class Identification(TypedDict):
+    ranges: mapping(
+        "searched range of each parameter, in dimensionless groups",
+        {name: RANGES_OF_CALIBRATION[name] for name in ("friction", "damping", "stiffness")}
+        # Searched by its logarithm.
+        | {"angle": interval(number("angle", "rad", gt=0, le=1.5707), f"searched range of {DESCRIPTIONS['angle']}")},
+    )
+    effort: number("factor of the numbers of conveyors; below 1: coarse tables", ge=0.1, le=100)
+
+
 SECTIONS = {
     "calibration": Annotated[Calibration, Field(description="parameters from measured velocities")],
+    "identification": Annotated[Identification, Field(description="parameters that the paper's numbers imply")],
 }
 
 
@@ -74,11 +103,51 @@ def calibration_study_settings(config: dict) -> dict:
     return {**box, "calibration": own, "model": model}
 
 
+def identification_settings(table: str, config: dict) -> dict:
+    """The parts of a config that a table of the section `identification` needs."""
+    own = {**config["identification"], "model": model_of(config, normal=table == "edges")}
+    if table == "edges":
+        return own
+    method = {name: config["solver"][name] for name in ("duration", "step", "settling", "mean_settling")}
+    computed = {"numbers": paper_numbers(config), "measured": measured_quantities(config)}
+    return own | computed | {"euler": {**method, "method": "euler"}}
+
+
+def paper_numbers(config: dict) -> dict[str, dict]:
+    """The paper's numbers CLAIM.QUANTITY, each with the ends of its accepted interval."""
+    found = {}
+    for key in NUMBERS_OF_CLAIMS:
+        claim, name = key.split(".")
+        quantity = config["claims"][claim]["quantities"][name]
+        low, high = quantity["accepted"]
+        found[key] = {"is": quantity["is"], "paper": quantity["paper"], "low": low, "high": high}
+    return found
+
+
+def measured_quantities(config: dict) -> dict:
+    """The axes and settings with which the claims measure these numbers."""
+
+    def ends_and_count(axis: list | dict) -> list:
+        if isinstance(axis, dict):
+            return [axis["start"], axis["stop"], axis["num"]]
+        return [axis[0], axis[-1], len(axis)]
+
+    sweeps, fit = config["sweeps"], config["regressions"]["height"]
+    return {
+        "interval": fit["acceleration"],
+        "starts": ends_and_count(sweeps["amplitudes"]["axes"]["z0"]),
+        "moved_starts": ends_and_count(sweeps["interval"]["axes"]["z0"]),
+        "critical": {name: config["claims"][name]["settings"]["acceleration"] for name in ("C07", "C08")},
+        "triple": fit["paper"],
+    }
+
+
 # The tables that are not entries, and the function that returns the settings of each.
-CALIBRATION_TABLES = ("parameters", "samples", "fit", "alternatives", "prediction", "next")
-TABLE_SETTINGS = {
+# Tables that only an explicit target makes.
+ON_REQUEST = {
     **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
     "results/calibration_study": calibration_study_settings,
 }
-# Tables that only an explicit target makes.
-ON_REQUEST = (*TABLE_SETTINGS,)
+TABLE_SETTINGS = ON_REQUEST | {
+    f"identification/{name}": partial(identification_settings, name) for name in IDENTIFICATION_TABLES
+}

@@ -7,7 +7,7 @@ import pandas as pd
 from scipy.stats import chi2
 
 from calibration import study
-from calibration.inference import CONFIDENCE
+from calibration.credible_intervals import CONFIDENCE
 from calibration.model_check import DECISIVE, SIGNIFICANCE
 from calibration.study import COMPARED, MANY, NARROW, PARAMETERS, RIGHT
 from pipeline.templates import render

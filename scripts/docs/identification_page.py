@@ -5,12 +5,13 @@ import math
 import numpy as np
 import pandas as pd
 
+from calibration import paper_findings as findings
+from calibration.credible_intervals import CONFIDENCE
+from calibration.edges import contacts_of
+from calibration.importance_sampling import covariance
+from calibration.paper_numbers import PARAMETERS
+from calibration.paper_posterior import EVIDENCE
 from claims.finding import format_interval
-from identification import findings
-from identification.edges import contacts_of
-from identification.numbers import PARAMETERS
-from identification.posterior import CONFIDENCE, EVIDENCE
-from pipeline.importance_sampling import covariance
 from pipeline.templates import render
 
 SURE = 0.95  # probability from which a treatment of tension is identifiable
@@ -33,7 +34,7 @@ def make(
     samples: pd.DataFrame,
     frictions: pd.DataFrame,
 ) -> str:
-    """The page from its template and the tables of the stage identification."""
+    """The page from its template and the tables in results/identification."""
     settings = fits.attrs
     paper, triple = settings["numbers"], settings["measured"]["triple"]
     misfits = numbers.pivot(index="number", columns="set", values="misfit")

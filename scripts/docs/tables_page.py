@@ -22,15 +22,15 @@ def modules_of(stage: str) -> list[ModuleType]:
     return [module for module in modules if hasattr(module, "TABLES")]
 
 
-def file_of(kind: str, stage: str = "") -> str:
+def file_of(kind: str, folder: str = "") -> str:
     """The file of the tables of a kind; NAME stands for the name of an entry of the config.
 
-    stage : which of several stages makes the table, if tables of the same name exist
+    folder : of several with a table of the same name
     """
     folders = [reference.split("/")[0] for reference in TABLES if reference.split("/")[1] == kind]
     if not folders:
         return f"results/{kind}/NAME.parquet"
-    folder = stage if stage in folders else folders[0]
+    folder = folder if folder in folders else folders[0]
     return f"results/{kind}.parquet" if folder == "results" else f"results/{folder}/{kind}.parquet"
 
 
@@ -45,7 +45,11 @@ def make(template: str) -> str:
     """The page from its template."""
     stages = {
         stage: [
-            {"kind": kind, "file": file_of(kind, stage), "columns": [describe(column) for column in schema]}
+            {
+                "kind": kind,
+                "file": file_of(kind, getattr(module, "FOLDER", stage)),
+                "columns": [describe(column) for column in schema],
+            }
             for module in modules_of(stage)
             for kind, schema in module.TABLES.items()
         ]

@@ -9,6 +9,7 @@ import pytest
 
 from calibration import prediction
 from calibration.calibrate import calibrate
+from calibration.importance_sampling import Sample
 from calibration.inference import (
     DETERMINED,
     DISAGREEING,
@@ -24,7 +25,6 @@ from calibration.model_check import compare_alternatives
 from calibration.search_space import bounds_of
 from calibration.synthetic import csv_text, measure
 from conveyor.parameters import RANGES
-from pipeline.importance_sampling import Sample
 
 MODEL = {"frequency": 40.0, "angle": 0.3, "mass": 1e-3, "gravity": 9.81, "exponent": 1.5, "inclination": 0.0}
 MODEL |= {"phase_shift": 0.0}

@@ -16,16 +16,16 @@ import pandas as pd  # noqa: E402
 from project import read_config  # noqa: E402
 
 import conveyor  # noqa: E402
+from calibration import paper_numbers as numbers  # noqa: E402
+from calibration import paper_posterior as posterior  # noqa: E402
 from calibration.calibrate import calibrate  # noqa: E402
+from calibration.edges import HEIGHTS  # noqa: E402
 from conveyor.certificates.balls import exactly, precision  # noqa: E402
 from conveyor.certificates.law import Accuracy, law_of  # noqa: E402
 from conveyor.certificates.orbit import prove_orbit  # noqa: E402
 from conveyor.certificates.shooting import Shooting  # noqa: E402
-from identification import numbers, posterior  # noqa: E402
-from identification.edges import HEIGHTS  # noqa: E402
 from operating import drive  # noqa: E402
 from pipeline import grid  # noqa: E402
-from scripts.identification.settings import identification_settings  # noqa: E402
 from test_inference import SETTINGS, measured  # noqa: E402
 from workflow.config.tables import TABLES  # noqa: E402
 
@@ -40,9 +40,9 @@ def calibration():
 
 def identification():
     """Edges that a formula gives in place of trajectories, at four values of loss and group."""
-    settings = identification_settings(CONFIG, "numbers", CONFIG["model"])
+    settings = TABLES["identification/numbers"](CONFIG)
     settings |= {"effort": 0.1}
-    loss, group = (np.geomspace(*settings["bounds"][name], 4) for name in ("loss", "group"))
+    loss, group = (np.geomspace(*settings["ranges"][name], 4) for name in ("damping", "stiffness"))
     axes = [loss, group, list(posterior.VERTICAL), HEIGHTS]
     table = pd.MultiIndex.from_product(axes, names=["loss", "group", "tension", "z0"]).to_frame(index=False)
     edge = 10.4 - 1.6e4 * table.z0 + 2.7e7 * table.z0**2 - 2.0 * np.log(table.loss / 0.25) + 0.1 * table.group / 72.0

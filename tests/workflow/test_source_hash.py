@@ -29,7 +29,7 @@ CALLS = {
     "excitation/clean_drive": {"operating/transit"},
     "excitation/comparison": {"operating/transit"},
     "operating/throws": {"operating/regimes", "operating/shares"},
-    "identification/posterior": {"identification/edges", "motion/critical"},
+    "calibration/paper_posterior": {"calibration/edges", "motion/critical"},
     "claims/verdicts": {"accuracy/stability_estimates"},
 }
 

@@ -48,12 +48,12 @@ CONSTANTS = {
     "calibration.significance": "calibration/model_check",
     "calibration.beyond": "calibration/prediction",
     "calibration_study": "calibration/study",
-    "identification.contacts": "identification/edges",
-    "identification.heights": "identification/edges",
-    "identification.edges": "identification/edges",
-    "identification.inside": "identification/numbers",
-    "identification.evidence": "identification/posterior",
-    "identification.search": "identification/posterior",
+    "identification.contacts": "calibration/edges",
+    "identification.heights": "calibration/edges",
+    "identification.edges": "calibration/edges",
+    "identification.inside": "calibration/paper_numbers",
+    "identification.evidence": "calibration/paper_posterior",
+    "identification.search": "calibration/paper_posterior",
     "sharing.seconds": "workflow/config/sharing",
     "sharing.megabytes": "workflow/config/sharing",
     "witnesses": "orbits/witnesses",
@@ -94,6 +94,8 @@ GONE = (
     *("precision_estimates", "scaling", "companion.tolerance", "companion.cycles"),
     *(f"stability.{key}" for key in ("hard", "rivals", "stick", "chatter_steps")),
 )
+# Settings with a new name.
+RENAMED = {"identification.bounds": "identification.ranges, with damping for loss and stiffness for group"}
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
@@ -140,6 +142,8 @@ def explain(error: dict) -> str:
         return f"{key} is missing"
     if kind == "extra_forbidden" and key in GONE:
         return f"{key} is no setting any more, because what used it is gone; remove it"
+    if kind == "extra_forbidden" and key in RENAMED:
+        return f"{key} is no setting any more; give {RENAMED[key]}"
     if kind == "extra_forbidden" and key in CONSTANTS:
         folder = "" if CONSTANTS[key].startswith("workflow/") else "scripts/"
         return f"{key} is no setting any more; remove it (its value is a constant in {folder}{CONSTANTS[key]}.py)"

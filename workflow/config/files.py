@@ -16,7 +16,7 @@ from .errors import ConfigError, format_key, format_value
 ROOT = Path(__file__).resolve().parents[2]
 STAGES = (
     *("sweeps", "motion", "orbits", "dimensions", "fit", "sensitivity", "operating"),
-    *("excitation", "calibration", "accuracy", "claims", "identification", "figures", "docs"),
+    *("excitation", "calibration", "accuracy", "claims", "figures", "docs"),
 )
 DEFAULT_FILES = tuple(ROOT / f"config/{name}.yaml" for name in ("config", *STAGES))
 # Of a file, with anchors expanded: larger files take seconds to check.

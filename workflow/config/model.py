@@ -13,7 +13,6 @@ from scripts.docs import settings as docs
 from scripts.excitation import settings as excitation
 from scripts.figures import settings as figures
 from scripts.fit import settings as fit
-from scripts.identification import settings as identification
 from scripts.motion import settings as motion
 from scripts.operating import settings as operating
 from scripts.orbits import settings as orbits
@@ -73,7 +72,6 @@ Config = TypedDict(
         **operating.SECTIONS,
         **excitation.SECTIONS,
         **calibration.SECTIONS,
-        **identification.SECTIONS,
         **figures.SECTIONS,
         **docs.SECTIONS,
     },

@@ -10,7 +10,6 @@ from operator import itemgetter
 from scripts.calibration import settings as calibration
 from scripts.claims import settings as claims
 from scripts.excitation import settings as excitation
-from scripts.identification import settings as identification
 from scripts.operating import settings as operating
 from scripts.orbits import settings as orbits
 from scripts.pipeline.table_settings import FOLLOWED, model_of, with_model
@@ -55,7 +54,7 @@ def benchmark_settings(config: dict) -> dict:
     }
 
 
-STAGES = (orbits, sensitivity, operating, identification, excitation, calibration, claims)
+STAGES = (orbits, sensitivity, operating, excitation, calibration, claims)
 # The tables that are not entries, and the function that returns the settings of each.
 TABLES = {
     **{reference: settings for stage in STAGES for reference, settings in stage.TABLE_SETTINGS.items()},

@@ -1,5 +1,6 @@
-# Parameters of a conveyor from measured velocities. Only a config with `calibration.measurements` has these targets. The simulation
-# study of the method, docs/calibration_study.md, and the measurements of the example are made on request.
+# Parameters of a conveyor from measured velocities, and of the paper's conveyor from its numbers. Only a config with
+# `calibration.measurements` has targets of measured velocities. The simulation study of the method, docs/calibration_study.md, and the
+# measurements of the example are made on request.
 
 
 rule calibration:
@@ -109,6 +110,48 @@ rule calibration_study:
         **stage("calibration.study_table", "results/calibration_study"),
     message:
         "Simulation study of the calibration"
+    script:
+        "../../scripts/make.py"
+
+
+# The paper's numbers as data. These jobs start first, because they wait for each other.
+rule identification_edges:
+    output:
+        **tables_of("identification/edges"),
+    log:
+        log_file("identification/edges"),
+    benchmark:
+        benchmark_file("identification/edges")
+    priority: 3
+    threads: THREADS
+    params:
+        **stage("calibration.edges", "identification/edges"),
+    message:
+        "Edges of the first state over the contact parameters"
+    script:
+        "../../scripts/make.py"
+
+
+rule identification_posterior:
+    input:
+        **tables_of("identification/edges"),
+    output:
+        **tables_of(
+            "identification/numbers",
+            "identification/fits",
+            "identification/intervals",
+            "identification/samples",
+            "identification/frictions",
+        ),
+    log:
+        log_file("identification/posterior"),
+    benchmark:
+        benchmark_file("identification/posterior")
+    priority: 3
+    params:
+        **stage("calibration.paper_posterior", "identification/numbers"),
+    message:
+        "Parameters that the paper's numbers imply"
     script:
         "../../scripts/make.py"
 

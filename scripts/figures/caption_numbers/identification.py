@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from identification import findings
-from identification.edges import contacts_of
+from calibration import paper_findings as findings
+from calibration.edges import contacts_of
 
 
 def numbers(*, frictions: pd.DataFrame) -> dict:

@@ -5,8 +5,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from calibration.paper_findings import VELOCITIES
 from figures import style
-from identification.findings import VELOCITIES
 
 EVIDENCE = {
     "all": ("black", "-", "all numbers"),
@@ -91,7 +91,7 @@ def draw_posterior(axes: Axes, samples: pd.DataFrame, parameter: str, printed: f
 
 
 def plot(*, samples: pd.DataFrame, frictions: pd.DataFrame) -> Figure:
-    """Draw the tables of the stage identification."""
+    """Draw the parameters that the paper's numbers imply."""
     figure = style.figure(style.PAGE, 118.0)
     upper, lower = figure.subfigures(2, 1)
     alone, contacts = upper.subplots(1, 2, width_ratios=(1.0, 1.15))

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from calibration import edges
 from conveyor import Conveyor, parameter_table
 from conveyor.analysis.attractors.labels import classify
-from identification import edges
 
 SCAN, FURTHER = np.arange(10.0, 31.0, 2.0), 0.1 * np.arange(1.0, 11.0)
 

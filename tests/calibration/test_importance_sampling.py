@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from pipeline.importance_sampling import EXACT, Sample, monte_carlo_error, pooled, sample
+from calibration.importance_sampling import EXACT, Sample, monte_carlo_error, pooled, sample
 
 BOUNDS = np.array([[-5.0, -5.0, -5.0], [5.0, 5.0, 5.0]])
 OPTIONS = {"first": 500, "points": 500, "rounds": 6, "enough": math.inf, "seed": 1, "widths": EXACT}

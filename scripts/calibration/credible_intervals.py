@@ -4,14 +4,16 @@ Smoothing makes intervals a little wider, and less dependent on the few samples 
 """
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 from scipy.special import ndtr
 
+from calibration.importance_sampling import effective_number
 from conveyor.elementary import exp
 from conveyor.linear_algebra import dot
-from pipeline.importance_sampling import effective_number
 
+CONFIDENCE = 0.95  # of the intervals
 OPEN_DENSITY = 0.2  # of the largest density of a parameter: an end of the range with more is open
 
 
@@ -33,10 +35,26 @@ def quantiles(values: np.ndarray, weights: np.ndarray, shares: list[float]) -> n
     return np.interp(shares, below, grid)
 
 
-def interval(values: np.ndarray, weights: np.ndarray, confidence: float) -> tuple[float, float]:
-    """The central interval with a share `confidence` of the posterior; the arguments as in `quantiles`."""
-    low, high = quantiles(values, weights, [0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence])
-    return float(low), float(high)
+def summarize(columns: Iterable[np.ndarray], weights: np.ndarray) -> np.ndarray:
+    """Median and ends of the central interval with a share CONFIDENCE of the posterior of each parameter, shape (d, 3).
+
+    columns, weights : values of d parameters, each of shape (n,), and weights as in `quantiles`
+    """
+    shares = [0.5, 0.5 - 0.5 * CONFIDENCE, 0.5 + 0.5 * CONFIDENCE]
+    return np.array([quantiles(values, weights, shares) for values in columns])
+
+
+def with_errors(values: np.ndarray, errors: np.ndarray, is_log: bool) -> dict[str, float]:
+    """Best value and ends of an interval, shape (3,), with their Monte Carlo errors, as columns of a table.
+
+    is_log : whether the errors belong to the logarithms of the values
+    """
+    best, low, high = values
+    best_error, low_error, high_error = values * errors if is_log else errors
+    return {
+        **{"best": best, "best_error": best_error},
+        **{"low": low, "low_error": low_error, "high": high, "high_error": high_error},
+    }
 
 
 def open_ends(values: np.ndarray, weights: np.ndarray, bounds: tuple[float, float]) -> tuple[bool, bool]:

@@ -17,20 +17,23 @@ import pandas as pd
 from scipy.optimize import minimize
 from scipy.stats import chi2
 
+from calibration import paper_numbers as claims
+from calibration.credible_intervals import CONFIDENCE, open_ends, summarize, with_errors
+from calibration.edges import VERTICAL
+from calibration.effort import ENOUGH, SEARCHES
+from calibration.importance_sampling import EXACT, effective_number, log_sum, monte_carlo_error, normalize, sample
+from calibration.paper_findings import DOWN_ALONE, VELOCITIES, misfit
+from calibration.paper_numbers import CONVERGED, EULER, PARAMETERS, searched
+from calibration.search_space import bounds_of, values_at
 from conveyor.elementary import exp, log
-from identification import numbers as claims
-from identification.edges import VERTICAL
-from identification.findings import DOWN_ALONE, VELOCITIES, misfit
-from identification.numbers import CONVERGED, EULER, PARAMETERS, SPARE, searched, values_of
 from pipeline import fields
-from pipeline.credible_intervals import interval, open_ends, quantiles
-from pipeline.importance_sampling import EXACT, effective_number, log_sum, monte_carlo_error, normalize, sample
 
 SET = fields.text("evidence", "set of the paper's numbers: all, end_left_out or paper_method")
 VALUES = tuple(fields.number(name, unit, "parameter") for name, unit in PARAMETERS.items())
 TOTAL = fields.number("total", "1", "sum of squared misfits, each in half an accepted interval")
 SETS = "a set of evidence at its lowest total; at the printed parameters: euler, converged, or interpolated (edges)"
 TENSION = fields.text("tension", "mode of a tensile contact force")
+FOLDER = "identification"  # of the tables, in results/
 TABLES = {
     "numbers": (
         fields.text("set", SETS),
@@ -90,9 +93,6 @@ EVIDENCE = {
 # first one, and conveyors whose velocities are computed.
 POINTS, ROUNDS, FOLLOWED = 4000, 5, 2000
 SEED = 1
-CONFIDENCE = 0.95  # of the intervals
-ENOUGH = 100.0  # effective points for an interval
-SEARCHES = 4  # whose differences give the Monte Carlo errors
 FRICTIONS = 65  # values of friction in the table `frictions`
 # Decimals of a misfit. Splines come from LAPACK, whose last digits differ from processor to processor and would decide
 # which points the search draws next.
@@ -121,7 +121,7 @@ def infer(
     shifts : by CLAIM.QUANTITY, added to the quantities before they are compared
     quantities : function from searched parameters, shape (n, 4), a tension mode, and whether velocities are wanted
     """
-    model, bounds = settings["model"], bounds_of(settings)
+    bounds = bounds_of(settings, PARAMETERS)
     numbers = {name: one for name, one in settings["numbers"].items() if name not in evidence["without"]}
 
     def total(found: dict[str, np.ndarray]) -> np.ndarray:
@@ -140,7 +140,7 @@ def infer(
         for number in range(SEARCHES)
     }
     least = min(-2.0 * one.log_density.max() for one in found.values())
-    scale = max(least / (len(numbers) - len(SPARE)), 1.0)
+    scale = max(least / (len(numbers) - len(PARAMETERS)), 1.0)
     random = np.random.default_rng(seed)
     samples, fits = [], []
     for (tension, number), states in found.items():
@@ -153,7 +153,7 @@ def infer(
         velocities = -0.5 * totals - states.log_density[chosen]
         # The logarithms of weights also compare both tension modes, and the searches.
         log_weights = states.log_evidence + log_sum(logs) + velocities / scale
-        rows = values_of(x, model)
+        rows = values_at(x, settings, PARAMETERS)
         samples.append(pd.DataFrame(rows).assign(tension=tension, search=number, total=totals, weight=log_weights))
     table = pd.concat(samples, ignore_index=True)
     table["weight"] = normalize(table.weight.to_numpy())[0]
@@ -161,26 +161,21 @@ def infer(
         own = table[table.tension == tension]
         best = minimize(
             lambda x, tension=tension: total(quantities(x[None], tension, True))[0],
-            searched(model | own.loc[own.total.idxmin(), list(PARAMETERS)].to_dict())[0],
+            searched(settings, **own.loc[own.total.idxmin(), list(PARAMETERS)])[0],
             method="Nelder-Mead",
             bounds=bounds.T,
         )
-        row = {name: float(value[0]) for name, value in values_of(best.x[None], model).items()}
-        printed = total(quantities(searched(model), tension, True))
+        row = {name: float(value[0]) for name, value in values_at(best.x[None], settings, PARAMETERS).items()}
+        printed = total(quantities(searched(settings), tension, True))
         fits.append({"tension": tension, **row, "total": float(best.fun), "printed_total": float(printed[0])})
     by_tension = table.groupby("tension", sort=False).weight
     return table, pd.DataFrame(fits).assign(
         numbers=len(numbers),
         scale=scale,
-        region=scale * chi2.ppf(CONFIDENCE, len(SPARE)),
+        region=scale * chi2.ppf(CONFIDENCE, len(PARAMETERS)),
         share=by_tension.sum().to_numpy(),
         size=by_tension.agg(lambda weights: effective_number(weights / weights.sum())).to_numpy(),
     )
-
-
-def bounds_of(settings: dict) -> np.ndarray:
-    """Logarithms of the least and the largest value of each searched parameter, shape (2, 4)."""
-    return log(np.array([settings["bounds"][name] for name in SPARE]).T)
 
 
 def interval_rows(samples: pd.DataFrame, settings: dict) -> pd.DataFrame:
@@ -188,38 +183,28 @@ def interval_rows(samples: pd.DataFrame, settings: dict) -> pd.DataFrame:
 
     The Monte Carlo errors come from the differences between the searches. Too few points give null.
     """
-    searched_ends = values_of(bounds_of(settings), settings["model"])
-    weights, rows = samples.weight.to_numpy() / samples.weight.sum(), []
-    is_enough = effective_number(weights) >= ENOUGH
-    for name in PARAMETERS:
-        logs, bounds = log(samples[name].to_numpy()), log(searched_ends[name])
+    ends = values_at(bounds_of(settings, PARAMETERS), settings, PARAMETERS)
+    logs, bounds = ({name: log(np.asarray(of[name])) for name in PARAMETERS} for of in (samples, ends))
+    weights, limits = samples.weight.to_numpy() / samples.weight.sum(), np.array(list(bounds.values()))
 
-        def summary(shares: np.ndarray, logs: np.ndarray = logs, bounds: np.ndarray = bounds) -> np.ndarray:
-            return np.clip([*quantiles(logs, shares, [0.5]), *interval(logs, shares, CONFIDENCE)], *bounds)
+    def summary(shares: np.ndarray) -> np.ndarray:
+        return np.clip(summarize(logs.values(), shares), limits[:, :1], limits[:, 1:])
 
-        values = errors = np.full(3, math.nan)
-        if is_enough:
-            values = exp(summary(weights))
-            errors = values * monte_carlo_error(weights, samples.search.to_numpy(), summary)
-        best, low, high = values
-        best_error, low_error, high_error = errors
-        open_low, open_high = open_ends(logs, weights, bounds)
-        rows.append(
-            {
-                "parameter": name,
-                **{"best": best, "best_error": best_error},
-                **{"low": low, "low_error": low_error, "high": high, "high_error": high_error},
-                **{"open_low": open_low, "open_high": open_high},
-                "covered": math.log(high / low) / np.ptp(bounds),
-            }
-        )
+    values = errors = np.full((len(PARAMETERS), 3), math.nan)
+    if effective_number(weights) >= ENOUGH:
+        values, errors = exp(summary(weights)), monte_carlo_error(weights, samples.search.to_numpy(), summary)
+    rows = []
+    for name, *found in zip(PARAMETERS, values, errors, strict=True):
+        row = {"parameter": name, **with_errors(*found, is_log=True)}
+        row["open_low"], row["open_high"] = open_ends(logs[name], weights, bounds[name])
+        rows.append(row | {"covered": math.log(row["high"] / row["low"]) / np.ptp(bounds[name])})
     return pd.DataFrame(rows)
 
 
 def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, pd.DataFrame]:
     """The tables of numbers, fits, intervals, samples and frictions."""
     model, numbers = settings["model"], settings["numbers"]
-    splines, printed = claims.interpolate_edges(edges), searched(model)
+    splines, printed = claims.interpolate_edges(edges), searched(settings)
 
     def quantities(x: np.ndarray, tension: str, velocities: bool = True) -> dict[str, np.ndarray]:
         follow = claims.converged_velocities if velocities else None
@@ -233,13 +218,13 @@ def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, 
     for name, evidence in EVIDENCE.items():
         samples, fits = infer(evidence, shifts if evidence["shifted"] else {}, quantities, settings)
         best = fits.loc[fits.total.idxmin()]
-        at_best = quantities(searched(model | best[list(PARAMETERS)].to_dict()), best.tension)
+        at_best = quantities(searched(settings, **best[list(PARAMETERS)]), best.tension)
         rows.append(number_rows(name, at_best, numbers))
         found = {"samples": samples, "fits": fits, "intervals": interval_rows(samples, settings)}
         for kind, table in found.items():
             tables[kind].append(table.assign(evidence=name))
     grid = np.tile(printed, (FRICTIONS, 1))
-    grid[:, 0] = log(np.linspace(*settings["bounds"]["friction"], FRICTIONS))
+    grid[:, 0] = log(np.linspace(*settings["ranges"]["friction"], FRICTIONS))
     along = quantities(grid, model["tension"])
     frictions = {"friction": exp(grid[:, 0])} | {name: along[number] for name, number in VELOCITIES.items()}
     return {kind: pd.concat(parts) for kind, parts in tables.items()} | {

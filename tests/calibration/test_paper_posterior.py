@@ -6,9 +6,10 @@ import pytest
 from project import read_config
 from scipy.stats import chi2, norm
 
-from identification import posterior
-from identification.findings import misfit
-from identification.numbers import PARAMETERS, searched, values_of
+from calibration import paper_posterior as posterior
+from calibration.paper_findings import misfit
+from calibration.paper_numbers import PARAMETERS, searched
+from calibration.search_space import bounds_of, values_at
 
 CONFIG = read_config()
 MODEL, OWN = CONFIG["model"], CONFIG["identification"]
@@ -21,7 +22,7 @@ SETTINGS = OWN | {
     "model": MODEL,
     "numbers": NUMBERS,
 }
-BOUNDS = posterior.bounds_of(SETTINGS)
+BOUNDS = bounds_of(SETTINGS, PARAMETERS)
 CENTRE, REACH = BOUNDS.mean(axis=0), np.ptp(BOUNDS, axis=0)
 WIDTH = 0.05  # standard deviation of the first two parameters over their ranges
 ALL = {"without": [], "shifted": False}
@@ -46,7 +47,7 @@ def test_the_posterior_of_normal_errors():
         {"allow": 1.0 / odds, "clip": 1.0 - 1.0 / odds}, abs=0.03
     )
     assert fits.total.tolist() == pytest.approx([0.0, 4.0], abs=1e-3)
-    at_printed = quantities(searched(MODEL), "allow", True)
+    at_printed = quantities(searched(SETTINGS), "allow", True)
     assert fits.printed_total[0] == pytest.approx(
         sum(misfit(at_printed[name][0], one) ** 2 for name, one in NUMBERS.items())
     )
@@ -70,7 +71,7 @@ def test_errors_grow_if_the_best_parameters_miss_by_more():
 
 
 def values_to_loss(samples):
-    x = [searched(MODEL | row) for row in samples[list(PARAMETERS)].to_dict("records")]
+    x = [searched(SETTINGS, **row) for row in samples[list(PARAMETERS)].to_dict("records")]
     return np.exp(np.vstack(x)[:, 1])
 
 
@@ -110,7 +111,7 @@ def test_the_error_of_the_best_value_is_its_deviation_from_seed_to_seed():
 
 def test_samples_lie_within_the_bounds():
     samples, _ = posterior.infer(ALL, {}, quantities, SETTINGS)
-    low, high = (values_of(bound[None], MODEL) for bound in BOUNDS)
+    low, high = (values_at(bound[None], SETTINGS, PARAMETERS) for bound in BOUNDS)
     for name in PARAMETERS:
         assert samples[name].between(low[name][0], high[name][0]).all()
     assert samples.weight.sum() == pytest.approx(1.0)

@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from identification import findings
-from identification.findings import misfit
+from calibration import paper_findings as findings
+from calibration.paper_findings import misfit
 
 
 def test_the_ends_of_the_accepted_interval_are_one_apart_from_its_middle():

@@ -12,6 +12,7 @@ import numpy as np
 from conveyor import classify, contact_of_groups, replace_parameters, set_parameters
 from pipeline import fields, grid
 
+FOLDER = "identification"  # of the table, in results/
 TABLES = {
     "edges": (
         fields.number(
@@ -112,7 +113,8 @@ def conveyors(settings: dict) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """
     model = settings["model"]
     count = contacts_of(settings["effort"])
-    axes = {name: np.geomspace(*settings["bounds"][name], count) for name in ("loss", "group")}
+    ranges = {"loss": settings["ranges"]["damping"], "group": settings["ranges"]["stiffness"]}
+    axes = {name: np.geomspace(*ends, count) for name, ends in ranges.items()}
     axes |= {"tension": np.array(VERTICAL), "z0": np.array(HEIGHTS)}
     columns = dict(zip(axes, map(np.ravel, np.meshgrid(*axes.values(), indexing="ij")), strict=True))
     row = grid.row_of(model | {"angle": 0.5 * np.pi})

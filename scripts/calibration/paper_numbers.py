@@ -13,29 +13,27 @@ import pandas as pd
 from scipy.interpolate import CubicSpline, RegularGridInterpolator
 from scipy.sparse.linalg import spsolve
 
+from calibration import edges as edge_search
+from calibration.edges import HEIGHTS
+from calibration.search_space import coordinates_of, values_at
 from conveyor import (
     LAST,
     NO_ATTRACTORS,
     UNITS,
     Hyperbola,
-    contact_of_groups,
-    groups_of_contact,
     mean_squared_error,
     sample_runs,
     set_parameters,
     sweep,
 )
-from conveyor.elementary import exp, log, sin
-from identification import edges as edge_search
-from identification.edges import HEIGHTS
+from conveyor.elementary import log, sin
 from motion.critical import find_states
 from pipeline import grid
 from pipeline.rule_log import JobError
 
-# Parameters of the tables with their units, and searched parameters in order.
+# Searched parameters in order, with their units; all of them by their logarithms.
 PARAMETERS = {name: UNITS[name] for name in ("friction", "damping", "stiffness", "angle")}
-SPARE = ("friction", "loss", "group", "angle")
-CONTACT = [SPARE.index("loss"), SPARE.index("group")]
+CONTACT = [list(PARAMETERS).index(name) for name in ("damping", "stiffness")]
 CONVERGED, EULER = "converged", "euler"
 MM, CM = 1e3, 1e2
 FINE = 1001  # heights at which the curve through the edges is evaluated
@@ -49,23 +47,19 @@ AROUND = np.array([-0.6, -0.3, 0.0, 0.3, 0.6])
 Follow = Callable[[np.ndarray], np.ndarray]
 
 
-def values_of(x: np.ndarray, model: dict) -> dict[str, np.ndarray]:
-    """The parameters, each of shape (n,), from logarithms of the searched parameters, shape (n, 4)."""
-    friction, loss, group, angle = exp(x).T
-    stiffness, damping = contact_of_groups(group, loss, grid.row_of(model))
-    return {"friction": friction, "damping": damping, "stiffness": stiffness, "angle": angle}
+def searched(settings: dict, **changed: float) -> np.ndarray:
+    """Coordinates of the searched parameters, shape (1, 4): the printed values, or changed ones."""
+    return coordinates_of(settings["model"] | changed, settings, PARAMETERS)
 
 
-def searched(model: dict) -> np.ndarray:
-    """Logarithms of the searched parameters of a model, shape (1, 4)."""
-    group, loss = groups_of_contact(model["stiffness"], model["damping"], grid.row_of(model))
-    return log([[model["friction"], loss, group, model["angle"]]])
+def parameters_at(x: np.ndarray, tension: str, settings: dict) -> np.ndarray:
+    """A table of parameters, shape (n,), of the model with other searched parameters and another tension mode.
 
-
-def parameters_at(x: np.ndarray, tension: str, model: dict) -> np.ndarray:
-    """A table of parameters, shape (n,), of a model with other searched parameters, shape (n, 4), and tension mode."""
+    x : coordinates of the searched parameters, shape (n, 4)
+    """
+    model = settings["model"]
     rows = np.full(len(x), grid.row_of(model | {"z0": 0.0}))
-    columns = values_of(x, model)
+    columns = values_at(x, settings, PARAMETERS)
     if "static_friction" in model:
         columns["static_friction"] = np.maximum(model["static_friction"], columns["friction"])
     set_parameters(rows, columns | {"tension": tension})
@@ -78,13 +72,13 @@ def interpolate_edges(table: pd.DataFrame) -> dict[str, RegularGridInterpolator]
     Raises
     ------
     JobError
-        if a row of the table has no edge, because the bounds of the config are too wide
+        if a row of the table has no edge, because the ranges of the config are too wide
     """
     if table.vertical_acceleration.isna().any():
         row = table[table.vertical_acceleration.isna()].iloc[0]
         raise JobError(
             f"no edge was found at the loss {row.loss:.3g}, the group {row.group:.3g} and z0 = {row.z0:g} m; narrow "
-            "identification.bounds, or widen SCAN in scripts/identification/edges.py"
+            "identification.ranges, or widen SCAN in scripts/calibration/edges.py"
         )
     table = table.sort_values(["loss", "group", "z0"])
     axes = [table[name].unique() for name in ("loss", "group", "z0")]
@@ -209,7 +203,7 @@ def measure_by_table(
 ) -> dict[str, np.ndarray]:
     """The quantities at searched parameters, shape (n, 4), with interpolated edges and by the converged solution."""
     edges = splines[edge_search.VERTICAL_OF[tension]](x[:, CONTACT])
-    return measure(parameters_at(x, tension, settings["model"]), edges, settings, follow)
+    return measure(parameters_at(x, tension, settings), edges, settings, follow)
 
 
 def edges_directly(
@@ -220,7 +214,7 @@ def edges_directly(
     The paper's method runs for its duration, and the converged solution continues from there, as in the claims.
     """
     model, euler = settings["model"], settings["euler"]
-    rows = np.repeat(parameters_at(x, model["tension"], model), len(heights))
+    rows = np.repeat(parameters_at(x, model["tension"], settings), len(heights))
     rows["angle"], rows["z0"] = 0.5 * np.pi, heights
     search = (edge_search.FURTHER, edge_search.RESOLUTION)
     converged = edge_search.find_edges(rows, edge_search.SCAN, *search, edge_search.converged_states(threads))
@@ -241,5 +235,5 @@ def measure_directly(x: np.ndarray, method: str, settings: dict, threads: int) -
         return sweep(rows, chunk=1, threads=threads, **run)["mean_velocity"]
 
     follow = converged_velocities if method == CONVERGED else follow_by_euler
-    parameters = parameters_at(x, settings["model"]["tension"], settings["model"])
+    parameters = parameters_at(x, settings["model"]["tension"], settings)
     return measure(parameters, edges_directly(x, method, settings, threads), settings, follow)

@@ -6,20 +6,21 @@ import pytest
 from project import read_config
 from scipy.interpolate import CubicSpline
 
+from calibration import edges
+from calibration import paper_numbers as numbers
+from calibration.paper_numbers import PARAMETERS, parameters_at, searched
+from calibration.search_space import values_at
 from claims import about_states
 from conveyor import ensemble
 from conveyor.analysis.attractors.labels import classify
 from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height, mean_squared_error
-from identification import edges, numbers
-from identification.numbers import parameters_at, searched, values_of
 from motion import critical
 from pipeline import grid
 from pipeline.rule_log import JobError
-from scripts.identification.settings import NUMBERS_OF_CLAIMS
+from scripts.calibration.settings import NUMBERS_OF_CLAIMS
 
 CONFIG = read_config()
 MODEL, OWN = CONFIG["model"], CONFIG["identification"]
-PRINTED = searched(MODEL)
 TRIPLE = CONFIG["regressions"]["height"]["paper"]
 MEASURED = {
     "interval": [29.0, 47.0],
@@ -35,9 +36,10 @@ NEAR = {
     "model": MODEL,
     "euler": EULER,
     "measured": MEASURED,
-    "bounds": OWN["bounds"] | {"loss": [0.24, 0.253], "group": [65.0, 79.0]},
+    "ranges": OWN["ranges"] | {"damping": [0.24, 0.253], "stiffness": [65.0, 79.0]},
     "effort": 0.1,  # four losses and four groups
 }
+PRINTED = searched(NEAR)
 
 
 @pytest.fixture(scope="module")
@@ -145,7 +147,7 @@ def test_the_config_lists_the_measured_quantities(direct):
 
 def with_parameters(**changed):
     """Searched parameters of the printed conveyor with others."""
-    return np.vstack([searched(MODEL | row) for row in pd.DataFrame(changed).to_dict("records")])
+    return np.vstack([searched(NEAR, **row) for row in pd.DataFrame(changed).to_dict("records")])
 
 
 def test_friction_changes_only_velocities(splines):
@@ -162,14 +164,14 @@ def test_velocities_scale_with_friction_and_the_slope_of_the_excitation():
     angle, friction = MODEL["angle"], MODEL["friction"]
     other = np.radians(13.0)
     frictions = np.array([friction, friction * np.tan(angle) / np.tan(other)])
-    rows = parameters_at(with_parameters(friction=frictions, angle=[angle, other]), "allow", MODEL)
+    rows = parameters_at(with_parameters(friction=frictions, angle=[angle, other]), "allow", NEAR)
     rows["acceleration"] = 8.0 / np.sin(rows["angle"])
     velocities = numbers.converged_velocities(rows) / frictions
     assert velocities[0] == pytest.approx(velocities[1], rel=1e-6)
 
 
 def test_velocities_equal_the_velocities_of_runs():
-    rows = np.repeat(parameters_at(PRINTED, "clip", MODEL), 3, axis=0)
+    rows = np.repeat(parameters_at(PRINTED, "clip", NEAR), 3, axis=0)
     rows["acceleration"], rows["z0"] = 40.0, [0.0, 1e-4, 3e-4]
     runs = ensemble.sweep(rows, tolerance=numbers.TOLERANCE)
     assert numbers.converged_velocities(rows).tolist() == runs["mean_velocity"].tolist()
@@ -189,10 +191,10 @@ def test_each_tension_mode_has_its_edges():
 def test_parameters_and_searched_parameters_are_inverse():
     changed = {"friction": [0.15, 0.3], "damping": [0.3, 0.2], "stiffness": [5e5, 1e5], "angle": [0.2, 0.25]}
     x = with_parameters(**changed)
-    assert {name: value.tolist() for name, value in values_of(x, MODEL).items()} == {
+    assert {name: value.tolist() for name, value in values_at(x, NEAR, PARAMETERS).items()} == {
         name: pytest.approx(value) for name, value in changed.items()
     }
-    rows = parameters_at(x, "clip", MODEL)
+    rows = parameters_at(x, "clip", NEAR)
     assert rows["friction"].tolist() == pytest.approx([0.15, 0.3])
     assert rows["tension"].tolist() == [2.0, 2.0]
 

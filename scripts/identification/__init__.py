@@ -1,1 +1,0 @@
-"""Stage identification: the parameters that the numbers of the paper imply."""
