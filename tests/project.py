@@ -13,6 +13,7 @@ import yaml
 
 from workflow.config.entries import ENTRIES
 from workflow.config.files import merge as merged
+from workflow.config.stages import STAGES
 
 ROOT = Path(__file__).resolve().parents[1]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
@@ -27,23 +28,6 @@ TINY = {
     "sweeps": {"amplitudes": COARSE, "on_plate": {"axes": {"acceleration": {"num": 3}}}},
     "estimates": {"phase": COARSE_PAIRS},
 }
-
-
-STAGES = (
-    "sweeps",
-    "motion",
-    "orbits",
-    "dimensions",
-    "fit",
-    "sensitivity",
-    "operating",
-    "excitation",
-    "calibration",
-    "accuracy",
-    "claims",
-    "figures",
-    "docs",
-)
 CONFIG_FILES = ("config", *STAGES)
 
 

@@ -1,5 +1,6 @@
 """Settings of the stage accuracy: comparisons of methods, with units and ranges."""
 
+from operator import itemgetter
 from typing import Annotated, NotRequired
 
 from pydantic import AfterValidator, Field
@@ -29,6 +30,7 @@ from ..pipeline.settings import (
     whole,
     word,
 )
+from ..pipeline.table_settings import FOLLOWED, model_of, with_model
 
 FixedStepMethod = word("method with a fixed step", *FIXED_STEP_METHODS)
 Tolerances = many(Tolerance, "relative tolerances")
@@ -128,4 +130,55 @@ SECTIONS = {
     "scene_budget": Annotated[SceneBudget, Field(description="accuracy that each figure needs")],
     "map_check": Annotated[MapCheck, Field(description="check of state maps by brute force")],
     "settling_times": Annotated[SettlingTimes, Field(description="time until a motion settles")],
+}
+
+
+def precision_settings(config: dict, scene: str) -> dict:
+    """One scene of the section `precision`."""
+    precision = config["precision"]
+    shared = {name: precision[name] for name in ("duration", "max_evaluations")}
+    return {**shared, "model": {**config["model"], **precision["scenes"][scene]}}
+
+
+def published_scenes(config: dict) -> dict[str, dict]:
+    """The settings of each scene that is published for other solvers."""
+    precision = config["precision"]
+    scenes = {name: {"model": model, "duration": precision["duration"]} for name, model in precision["scenes"].items()}
+    return {
+        name: {"scene": name, **scene, "model": {**config["model"], **scene["model"]}}
+        for name, scene in {**scenes, **config["published_scenes"]["further"]}.items()
+    }
+
+
+def reference_settings(config: dict) -> dict:
+    """The scene whose reference is computed a second time: the jumping part."""
+    precision = config["precision"]
+    return {"duration": precision["duration"], "model": {**config["model"], **precision["scenes"]["jumping"]}}
+
+
+def benchmark_settings(config: dict) -> dict:
+    """The cases of the benchmark with all defaults filled in."""
+    solver = {key: config["solver"][key] for key in ("duration", "step")}
+    cases = config["benchmark"]["cases"]
+    return {
+        "cases": {
+            name: {**solver, **case, "model": {**config["model"], **case["model"]}} for name, case in cases.items()
+        },
+        "tolerance": config["solver"]["tolerance"],
+        "repeats": config["benchmark"]["repeats"],
+    }
+
+
+# The tables that are not entries, and the function that returns the settings of each.
+TABLE_SETTINGS = {
+    "results/benchmark": benchmark_settings,
+    "results/reference_check": reference_settings,
+    "results/stability": itemgetter("stability"),
+    "results/stability_estimates": lambda config: {"model": model_of(config)},
+    "results/scene_budget": itemgetter("scene_budget"),
+    "results/budget_times": itemgetter("scene_budget"),
+    "results/rigid_part": lambda config: {},
+    "results/theory": lambda config: {"model": model_of(config)},
+    "results/map_check": itemgetter("map_check"),
+    "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),
 }

@@ -143,11 +143,8 @@ def measured_quantities(config: dict) -> dict:
 
 
 # The tables that are not entries, and the function that returns the settings of each.
-# Tables that only an explicit target makes.
-ON_REQUEST = {
+TABLE_SETTINGS = {
     **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
     "results/calibration_study": calibration_study_settings,
-}
-TABLE_SETTINGS = ON_REQUEST | {
-    f"identification/{name}": partial(identification_settings, name) for name in IDENTIFICATION_TABLES
+    **{f"identification/{name}": partial(identification_settings, name) for name in IDENTIFICATION_TABLES},
 }

@@ -8,7 +8,7 @@ import pyarrow as pa
 
 from pipeline import fields
 from pipeline.templates import render
-from workflow.config.files import STAGES
+from workflow.config.stages import STAGES
 from workflow.config.tables import TABLES
 
 WITHOUT_TABLES = ("figures", "docs")

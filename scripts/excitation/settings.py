@@ -60,5 +60,3 @@ TABLE_SETTINGS = {
     "excitation/comparison": comparison_settings,
     "excitation/clean_drive": clean_drive_settings,
 }
-# Tables that only an explicit target makes.
-ON_REQUEST = (*(f"excitation/{name}" for name in EXCITATION_TABLES), "excitation/comparison")

@@ -91,7 +91,8 @@ def test_a_right_model_is_explained_and_its_friction_is_found(found):
 
 def test_a_single_parameter_can_be_searched():
     stated = {name: value for name, value in CONTACT.items() if name != "friction"}
-    settings = SETTINGS | {"parameters": ["friction"], "model": MODEL | stated}
+    ranges = {"friction": SETTINGS["ranges"]["friction"]}
+    settings = SETTINGS | {"ranges": ranges, "model": MODEL | stated}
     (low,), (high,) = (calibrate(measured(), settings, threads=2)["parameters"][name] for name in ("low", "high"))
     assert 0.95 * low <= CONTACT["friction"] <= 1.05 * high and high < 1.2 * low
 

@@ -12,12 +12,9 @@ import yaml
 from snakemake.utils import update_config
 
 from .errors import ConfigError, format_key, format_value
+from .stages import STAGES
 
 ROOT = Path(__file__).resolve().parents[2]
-STAGES = (
-    *("sweeps", "motion", "orbits", "dimensions", "fit", "sensitivity", "operating"),
-    *("excitation", "calibration", "accuracy", "claims", "figures", "docs"),
-)
 DEFAULT_FILES = tuple(ROOT / f"config/{name}.yaml" for name in ("config", *STAGES))
 # Of a file, with anchors expanded: larger files take seconds to check.
 MOST_CHARACTERS, MOST_VALUES, MOST_LEVELS = 1_000_000, 12_000, 50

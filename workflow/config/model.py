@@ -5,17 +5,6 @@ from typing import Annotated
 from pydantic import ConfigDict, Field, TypeAdapter
 from typing_extensions import TypedDict
 
-from scripts.accuracy import settings as accuracy
-from scripts.calibration import settings as calibration
-from scripts.claims import settings as claims
-from scripts.dimensions import settings as dimensions
-from scripts.docs import settings as docs
-from scripts.excitation import settings as excitation
-from scripts.figures import settings as figures
-from scripts.fit import settings as fit
-from scripts.motion import settings as motion
-from scripts.operating import settings as operating
-from scripts.orbits import settings as orbits
 from scripts.pipeline.settings import (
     LONGEST_NAME,
     MODEL_KEYS,
@@ -29,8 +18,8 @@ from scripts.pipeline.settings import (
     text,
     whole,
 )
-from scripts.sensitivity import settings as sensitivity
-from scripts.sweeps import settings as sweeps
+
+from .stages import declared
 
 
 class Solver(TypedDict):
@@ -61,19 +50,7 @@ Config = TypedDict(
         "model": mapping("the conveyor and the part", MODEL_KEYS),
         "solver": Annotated[Solver, Field(description="default settings of all trajectories")],
         "sharing": Annotated[Sharing, Field(description="division of sweeps into jobs")],
-        **sweeps.SECTIONS,
-        **motion.SECTIONS,
-        **fit.SECTIONS,
-        **dimensions.SECTIONS,
-        **orbits.SECTIONS,
-        **claims.SECTIONS,
-        **accuracy.SECTIONS,
-        **sensitivity.SECTIONS,
-        **operating.SECTIONS,
-        **excitation.SECTIONS,
-        **calibration.SECTIONS,
-        **figures.SECTIONS,
-        **docs.SECTIONS,
+        **declared("SECTIONS"),
     },
 )
 Config.__pydantic_config__ = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)

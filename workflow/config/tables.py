@@ -5,71 +5,14 @@ table expects the same settings, so a table that was made from other settings is
 """
 
 import itertools
-from operator import itemgetter
 
-from scripts.calibration import settings as calibration
-from scripts.claims import settings as claims
-from scripts.excitation import settings as excitation
-from scripts.operating import settings as operating
-from scripts.orbits import settings as orbits
-from scripts.pipeline.table_settings import FOLLOWED, model_of, with_model
-from scripts.sensitivity import settings as sensitivity
+from scripts.accuracy.settings import precision_settings
 
 from .entries import ENTRIES, TIGHTER, resolve
+from .stages import declared
 
-
-def precision_settings(config: dict, scene: str) -> dict:
-    """One scene of the section `precision`."""
-    precision = config["precision"]
-    shared = {name: precision[name] for name in ("duration", "max_evaluations")}
-    return {**shared, "model": {**config["model"], **precision["scenes"][scene]}}
-
-
-def published_scenes(config: dict) -> dict[str, dict]:
-    """The settings of each scene that is published for other solvers."""
-    precision = config["precision"]
-    scenes = {name: {"model": model, "duration": precision["duration"]} for name, model in precision["scenes"].items()}
-    return {
-        name: {"scene": name, **scene, "model": {**config["model"], **scene["model"]}}
-        for name, scene in {**scenes, **config["published_scenes"]["further"]}.items()
-    }
-
-
-def reference_settings(config: dict) -> dict:
-    """The scene whose reference is computed a second time: the jumping part."""
-    precision = config["precision"]
-    return {"duration": precision["duration"], "model": {**config["model"], **precision["scenes"]["jumping"]}}
-
-
-def benchmark_settings(config: dict) -> dict:
-    """The cases of the benchmark with all defaults filled in."""
-    solver = {key: config["solver"][key] for key in ("duration", "step")}
-    cases = config["benchmark"]["cases"]
-    return {
-        "cases": {
-            name: {**solver, **case, "model": {**config["model"], **case["model"]}} for name, case in cases.items()
-        },
-        "tolerance": config["solver"]["tolerance"],
-        "repeats": config["benchmark"]["repeats"],
-    }
-
-
-STAGES = (orbits, sensitivity, operating, excitation, calibration, claims)
 # The tables that are not entries, and the function that returns the settings of each.
-TABLES = {
-    **{reference: settings for stage in STAGES for reference, settings in stage.TABLE_SETTINGS.items()},
-    "results/benchmark": benchmark_settings,
-    "results/reference_check": reference_settings,
-    "results/stability": itemgetter("stability"),
-    "results/stability_estimates": lambda config: {"model": model_of(config)},
-    "results/scene_budget": itemgetter("scene_budget"),
-    "results/budget_times": itemgetter("scene_budget"),
-    "results/rigid_part": lambda config: {},
-    "results/theory": lambda config: {"model": model_of(config)},
-    "results/map_check": itemgetter("map_check"),
-    "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),
-}
-ON_REQUEST = (*excitation.ON_REQUEST, *calibration.ON_REQUEST)
+TABLES = declared("TABLE_SETTINGS")
 
 
 def references(config: dict) -> list[str]:

@@ -1,10 +1,10 @@
 # Pages of the documentation, the article and the site, made from results.
 from pathlib import Path
 
+from scripts.accuracy.settings import published_scenes
 from scripts.conveyor import __version__
-from workflow.config.files import STAGES
 from workflow.config.schema import json_schema
-from workflow.config.tables import published_scenes
+from workflow.config.stages import STAGES
 
 # Pages made from the paper's config are part of the repository: in docs/, some of them in the project's folder.
 DOCS, PROJECT = (result("docs/"), result("docs/")) if PREFIX else ("docs/", "")
