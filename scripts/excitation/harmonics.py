@@ -19,7 +19,7 @@ PADDING = 4  # the first estimate of the frequency is on a grid of 1/4 of the re
 BLOCK = 2**16  # samples whose design matrix is in memory at a time
 GAP = 6.0  # mean intervals between two samples from which values between them are not interpolated
 LEAST_CYCLES = 1.5  # of the lowest frequency that is a vibration and no drift
-SPARE = 0.6  # half width of the searched frequencies around it, in units of 1/T: less than to the next minimum
+SEARCHED = 0.6  # half width of the searched frequencies around it, in units of 1/T: less than to the next minimum
 
 
 class Fit(NamedTuple):
@@ -130,7 +130,7 @@ def fit(time: np.ndarray, signals: np.ndarray, guess: float, orders: int) -> Fit
         return -resolution * project(centred, slope, frequency, orders)[1].reshape(-1, 1)
 
     options = {"xtol": 1e-10, "ftol": 1e-12, "gtol": None, "max_nfev": 12}
-    minimum = least_squares(residual, [0.0], jacobian, bounds=(-SPARE, SPARE), **options)
+    minimum = least_squares(residual, [0.0], jacobian, bounds=(-SEARCHED, SEARCHED), **options)
     frequency = guess + float(minimum.x[0]) * resolution
     values, rest = project(centred, signals, frequency, orders)
     amplitudes = (values[2 : 2 + orders] - 1j * values[2 + orders :]).T

@@ -29,7 +29,7 @@ SETTLED = 0.02
 SEEDS = (1, 2)  # two searches; each must find nearly the front of both
 MOST_CHECKED = 20  # designs with the transit of all parts, chosen to differ as much as possible
 RECOMMENDED = 5  # of the confirmed designs
-SPARE = ("acceleration", "frequency", "angle", "phase_shift")
+SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
 # A second harmonic in the direction of vibration, searched if the config has bounds for both numbers.
 SECOND_HARMONIC = ("harmonic_share", "harmonic_phase")
 PHASES = 720  # of a cycle at which its largest value is looked for
@@ -48,7 +48,7 @@ WORST = {
 CHECKED = ("velocity", "velocity_50", "velocity_95", "impact_speed", "back", "late")
 TABLES = {
     "drive_front": (
-        *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "parameter of the design") for name in SPARE),
+        *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "parameter of the design") for name in SEARCHED),
         fields.number(
             "harmonic_share", "1", "acceleration of a second harmonic over the fundamental; 0 if not searched"
         ),
@@ -77,7 +77,7 @@ TABLES = {
 
 def searched(bounds: dict) -> tuple[str, ...]:
     """The numbers of a design."""
-    return SPARE + SECOND_HARMONIC if set(SECOND_HARMONIC) <= set(bounds) else SPARE
+    return SEARCHED + SECOND_HARMONIC if set(SECOND_HARMONIC) <= set(bounds) else SEARCHED
 
 
 def designs_of(points: np.ndarray, bounds: dict) -> np.ndarray:
@@ -101,9 +101,9 @@ def bounds_of_points(bounds: dict) -> np.ndarray:
 
 def largest(designs: np.ndarray, divisor: float) -> np.ndarray:
     """The largest |cos θ + s/divisor cos(2θ + phase)| of each design with a share s; 1 without a second harmonic."""
-    if designs.shape[1] == len(SPARE):
+    if designs.shape[1] == len(SEARCHED):
         return np.ones(len(designs))
-    share, phase = designs[:, len(SPARE) :, None].transpose(1, 0, 2)
+    share, phase = designs[:, len(SEARCHED) :, None].transpose(1, 0, 2)
     theta = np.linspace(0.0, 2.0 * np.pi, PHASES, endpoint=False)
     return np.abs(cos(theta) + share / divisor * cos(2.0 * theta + phase)).max(axis=1)
 
@@ -120,9 +120,9 @@ def displacement(designs: np.ndarray) -> np.ndarray:
 
 def model_of(design: np.ndarray, model: dict) -> dict:
     """The model on a drive."""
-    numbers = dict(zip(SPARE[1:], design[1 : len(SPARE)], strict=True))
-    if len(design) > len(SPARE):
-        share, phase = design[len(SPARE) :].tolist()
+    numbers = dict(zip(SEARCHED[1:], design[1 : len(SEARCHED)], strict=True))
+    if len(design) > len(SEARCHED):
+        share, phase = design[len(SEARCHED) :].tolist()
         harmonic = {"order": 2, "along": share, "along_phase": phase, "normal": share, "normal_phase": phase}
         numbers["harmonics"] = [harmonic]
     return model | numbers
@@ -255,7 +255,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
         np.vstack([front.objectives for front in fronts.values()]),
     )
     whole = pareto.hypervolume(objectives, reference_point(settings))
-    front = pd.DataFrame(designs, columns=searched(settings["bounds"])).reindex(columns=SPARE + SECOND_HARMONIC)
+    front = pd.DataFrame(designs, columns=searched(settings["bounds"])).reindex(columns=SEARCHED + SECOND_HARMONIC)
     front = front.fillna(0.0).assign(
         peak_acceleration=peak_acceleration(designs),
         displacement=displacement(designs),
