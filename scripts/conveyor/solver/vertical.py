@@ -16,6 +16,8 @@ from .model import TENSION_ALLOW
 
 # Kinds of pieces.
 FLIGHT, GRAZE, CONTACT = range(3)
+# What a part at the plate's surface does: it goes on into the plate, is pressed on with no speed, or is left behind.
+ENTERS, RESTS, LEAVES = range(3)
 # Ends of a piece besides contact.NOTHING, SEPARATION and FORCE_SIGN; LOST is a flight whose impact was not found.
 IMPACT, LIMIT, LOST = range(3, 6)
 
@@ -36,14 +38,17 @@ def begin(c, z0, vz0, theta):
     return q, vz0 - plate.rise(c, sine, cosine)
 
 
-@compiled
-def in_contact(c, q, rate, theta):
-    """Whether a part with this gap and rate is in contact, or comes into contact at once."""
-    if q != 0.0:
-        return q < 0.0
-    if rate != 0.0:
-        return rate < 0.0
-    return c.gravity + plate.lift(c, math.sin(theta), math.cos(theta)) > 0.0
+@compiled_inline
+def at_surface(c, v, sine, cosine):
+    """What a part at the plate's surface with a speed of approach v (m/s) does: ENTERS, RESTS or LEAVES.
+
+    A speed below rest_speed is none at this tolerance, so that the part rests where the plate presses on it.
+    """
+    if v > c.rest_speed:
+        return ENTERS
+    if c.gravity + plate.lift(c, sine, cosine) > 0.0:
+        return RESTS if v >= -c.rest_speed else LEAVES
+    return ENTERS if v > 0.0 else LEAVES
 
 
 @compiled
@@ -51,8 +56,10 @@ def motion_at(c, q, rate, t, theta):
     """The Motion with a gap q (m) and its rate (m/s) at the time t (s) of a cycle and the phase theta (rad)."""
     sine, cosine = math.sin(theta), math.cos(theta)
     z, vz = q + plate.height(c, sine, cosine), rate + plate.rise(c, sine, cosine)
-    touching = in_contact(c, q, rate, theta)
-    w, v = math.sqrt(max(-q, 0.0)), -rate
+    w, v, touching = math.sqrt(max(-q, 0.0)), -rate, q < 0.0
+    if q == 0.0:
+        outcome = at_surface(c, v, sine, cosine)
+        touching, v = outcome != LEAVES, 0.0 if outcome == RESTS else v
     pulled = touching and c.tension != TENSION_ALLOW and contact_law.force(c, w, v) < 0.0
     return Motion(t, theta, sine, cosine, touching, w, v, pulled, z, vz, q, rate)
 
@@ -114,10 +121,8 @@ def fly(c, motion, limit):
 
 @compiled_inline
 def is_grazing(c, motion):
-    """Whether a part in contact only touches, with no speed: it is either pressed on or left behind by the plate."""
-    if motion.w != 0.0 or motion.v > c.rest_speed:
-        return False
-    return motion.v <= 0.0 or c.gravity + plate.lift(c, motion.sine, motion.cosine) > 0.0
+    """Whether a part in contact only touches: no contact step begins, because the part rests or leaves the plate."""
+    return motion.w == 0.0 and at_surface(c, motion.v, motion.sine, motion.cosine) != ENTERS
 
 
 @compiled_into_callers
@@ -128,8 +133,8 @@ def graze(c, motion):
     a = g + z̈_s. The plate does not turn in this time, so that slip velocities are off by its product with ẍ_s:
     below 1e-9 m/s for the paper's contact, more for contacts that are softer by far.
     """
-    acceleration = c.gravity + plate.lift(c, motion.sine, motion.cosine)
-    if acceleration > 0.0:
+    if at_surface(c, motion.v, motion.sine, motion.cosine) == RESTS:
+        acceleration = c.gravity + plate.lift(c, motion.sine, motion.cosine)
         w = 1e-9 * c.scale_w
         v = math.sqrt(2.0 * acceleration) * w
         return Piece(GRAZE, v / acceleration, 0.0, NOTHING, w, v, motion.sine, motion.cosine)
@@ -175,9 +180,7 @@ def arrive(c, motion, piece, origin):
         return Motion(t, theta, sine, cosine, False, 0.0, 0.0, False, z, vz, q, rate)
     touching = True
     if piece.end == SEPARATION:
-        # A separation slower than rest_speed does not count while the plate presses on.
-        pressed_on = c.gravity + plate.lift(c, sine, cosine) > 0.0
-        touching = piece.kind == CONTACT and v >= -c.rest_speed and pressed_on
+        touching = at_surface(c, v, sine, cosine) == RESTS
         v = 0.0 if touching else v
     pulled = motion.pulled != (piece.end == FORCE_SIGN)
     z, vz = plate.height(c, sine, cosine), plate.rise(c, sine, cosine) - v

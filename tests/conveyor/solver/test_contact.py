@@ -98,3 +98,14 @@ def test_slip_that_follows_stick_lasts_while_the_force_is_too_small(roots, lasti
     end, lasts = friction.stick_end(c, step, segment(0.0, 1.0))
     assert end == pytest.approx(0.3, abs=1e-5)
     assert lasts == lasting
+
+
+@pytest.mark.parametrize("acceleration", [20.0, 80.0])
+def test_a_part_at_the_surface_rests_enters_or_leaves(acceleration):
+    """At the plate's top, where the plate presses on the part or, at 80 m/s², falls away from it."""
+    c = constants(1e-9, acceleration=acceleration, psi0=math.pi)
+    motions = [vertical.motion_at(c, 0.0, rate * c.rest_speed, 0.0, c.psi0) for rate in (-2.0, -0.5, 0.0, 0.5, 2.0)]
+    presses = acceleration == 20.0
+    assert [motion.touching for motion in motions] == [True, True, presses, presses, False]
+    assert [vertical.is_grazing(c, motion) for motion in motions[:4]] == [False, presses, True, True]
+    assert not any(motion.v < 0.0 for motion in motions if motion.touching)

@@ -10,8 +10,7 @@ from ...solver import contact
 from ...solver.flight import Flight, next_impact
 from ...solver.jit import compiled
 from ...solver.model import VZ0, Z0
-from ...solver.plate import height
-from ...solver.vertical import begin, in_contact
+from ...solver.vertical import begin, motion_at
 
 TIME, VELOCITY, PHASE = range(3)
 
@@ -38,11 +37,11 @@ def find_first_impacts(parameters):
         if q < 0.0:
             continue
         t1 = 0.0
-        if not in_contact(c, q, rate, theta):
-            z = q + height(c, math.sin(theta), math.cos(theta))
+        motion = motion_at(c, q, rate, 0.0, theta)
+        if not motion.touching:
             # After this time the part would be below the lowest point of the plate.
-            longest = 1.1 * (vz + math.sqrt(vz * vz + 2.0 * c.gravity * (z + c.bounds.height))) / c.gravity
-            t1, _ = next_impact(Flight(z, vz, theta, c), q, rate, longest)
+            longest = 1.1 * (vz + math.sqrt(vz * vz + 2.0 * c.gravity * (motion.z + c.bounds.height))) / c.gravity
+            t1, _ = next_impact(Flight(motion.z, vz, theta, c), q, rate, longest)
         out[i, TIME], out[i, VELOCITY], out[i, PHASE] = t1, vz - c.gravity * t1, theta + c.omega * t1
     return out
 
