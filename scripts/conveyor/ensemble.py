@@ -13,8 +13,8 @@ from .parallel import for_each_chunk
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
 from .solver import trajectory
 from .solver.horizontal import SAMPLES, VX, VZ, X, Z
+from .solver.status import OK, STATUS
 
-STATUS = trajectory.STATUS
 NEEDS = ("feeding", "vertical")
 HORIZONTAL = ("mean_velocity", "x_end", "vx_end")
 COLUMNS = (
@@ -119,11 +119,11 @@ def sweep(
             some = follow_by_steps(rows[part], durations[begin], step, method, feeding)
         for name, values in some.items():
             columns[name][part] = values
-        return np.count_nonzero(columns["status"][part] != trajectory.OK)
+        return np.count_nonzero(columns["status"][part] != OK)
 
     for_each_chunk(work, len(rows), threads=threads, chunk=chunk, progress=progress)
     columns["impacts"] = columns["impacts"].astype(np.int64)
-    failed = columns["status"] != trajectory.OK
+    failed = columns["status"] != OK
     columns["max_gap"][failed] = columns["contact_fraction"][failed] = np.nan
     columns["status"] = np.array(STATUS, dtype=object)[columns["status"].astype(np.int64)]
     return Columns({name: column.reshape(shape) for name, column in columns.items()})
@@ -276,12 +276,12 @@ def transits(
         travelled[rows] = samples[:, 1:, X]
         peaks[rows] = results[:, [trajectory.IMPACT_SPEED, trajectory.PEAK_FORCE]]
         codes[rows] = results[:, trajectory.CODE]
-        return np.count_nonzero(codes[rows] != trajectory.OK)
+        return np.count_nonzero(codes[rows] != OK)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=64, progress=progress)
     arrival[arrival > longest] = np.nan
     velocity = np.where(np.isnan(arrival), travelled / longest, lengths / arrival)
-    arrival[codes != trajectory.OK] = velocity[codes != trajectory.OK] = np.nan
+    arrival[codes != OK] = velocity[codes != OK] = np.nan
     peaks[arrival[:, -1] <= begin] = np.nan
     impact_speed, peak_force = peaks.T
     status = np.array(STATUS, dtype=object)[codes]

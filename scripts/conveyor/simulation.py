@@ -12,6 +12,7 @@ from .parameters import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST
 from .solver import trajectory
 from .solver.horizontal import SAMPLES, name_events
 from .solver.model import Conveyor, Start, pack
+from .solver.status import OK, STATUS
 
 METHODS = ("event", *fixed_step.METHODS)
 MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
@@ -161,7 +162,7 @@ def simulate(
         (samples,), (results,) = trajectory.integrate(parameters[None], times, tolerance=tolerance, reuse=reuse)
         code, event_count, impacts, contact_time, max_gap, work, repeats, impact_speed, peak_force = results.tolist()
         (x_last, *_), (x_end, vx_end, z_end, vz_end, *_) = samples.tolist()
-        status = trajectory.STATUS[int(code)]
+        status = STATUS[int(code)]
         contact_fraction = contact_time / duration
     else:
         summary = fixed_step.run(parameters, duration, step, method)
@@ -170,7 +171,7 @@ def simulate(
         status, impacts, max_gap = summary.status, summary.impacts, summary.max_gap
         contact_fraction, work, repeats, event_count = summary.contact_fraction, summary.evaluations, 0, 0
         impact_speed, peak_force = summary.impact_speed, summary.peak_force
-    if status != trajectory.STATUS[trajectory.OK]:
+    if status != STATUS[OK]:
         max_gap = contact_fraction = math.nan
     return Run(
         conveyor=conveyor,

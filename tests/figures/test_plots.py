@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 from accuracy import precision, speed
-from conveyor.methods import leg
+from conveyor.solver.status import EVENT_LOST, GAVE_UP, NOT_FINITE, OK, STATUS, STEP_TOO_SMALL, STUCK
 from figures import style
 from figures.plots import drive, fig08, fig15, speed_accuracy, transit, work_precision
 
@@ -150,8 +150,8 @@ def test_failures_are_listed_in_order_and_missing_peers_are_named():
 
 
 def test_every_outcome_has_a_marker():
-    outcomes = {*leg.STATUSES, precision.WRONG, precision.THROUGH} - {leg.NOT_INSTALLED}
-    assert set(work_precision.OUTCOMES) == outcomes
+    of_peers = {STATUS[code] for code in (OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE)}
+    assert set(work_precision.OUTCOMES) == {*of_peers, precision.WRONG, precision.THROUGH}
 
 
 def test_a_picture_does_not_wait_for_the_compiler():

@@ -21,8 +21,9 @@ from ..solver.contact_law import row_of
 from ..solver.jit import compiled, compiled_inline, copy
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
-from ..solver.trajectory import IMPACT_LOST, MAX_PIECES, NOT_FINITE, OK, TOO_STIFF
-from ..solver.vertical import CONTACT, FLIGHT, IMPACT, LIMIT, LOST
+from ..solver.status import IMPACT_LOST, NOT_FINITE, OK, TOO_STIFF
+from ..solver.trajectory import MAX_PIECES
+from ..solver.vertical import CONTACT, FLIGHT, LANDING, LOST, TIME_LIMIT
 from ..solver.workspace import FIRST
 
 # Longest period of a motion that is looked for, in excitation cycles.
@@ -150,7 +151,7 @@ def delta_and_v(motion):
 
 @compiled
 def advance(c, series, state, phase, duration, tangent, features):
-    """Advance `state` from a phase of the excitation by a time of at most one cycle; a code of trajectory.STATUS.
+    """Advance `state` from a phase of the excitation by a time of at most one cycle; a code of status.STATUS.
 
     Parameters
     ----------
@@ -174,7 +175,7 @@ def advance(c, series, state, phase, duration, tangent, features):
             if piece.end == LOST:
                 return IMPACT_LOST
             features[AIRBORNE] += piece.duration
-            if piece.end == IMPACT:
+            if piece.end == LANDING:
                 features[IMPACTS] += 1.0
                 features[LONGEST_FLIGHT] = max(features[LONGEST_FLIGHT], features[AIRBORNE])
                 features[AIRBORNE] = 0.0
@@ -183,7 +184,7 @@ def advance(c, series, state, phase, duration, tangent, features):
         motion = vertical.arrive(c, motion, piece, phase)
         if not vertical.is_finite(motion):
             return NOT_FINITE
-        if piece.end == LIMIT:
+        if piece.end == TIME_LIMIT:
             if motion.pulled:
                 switch_damping(c, tangent, False)
             state[0], state[1] = delta_and_v(motion)
@@ -206,7 +207,7 @@ def follow_map(parameters, tolerance, state, cycles):
 
     Returns
     -------
-    status : code of trajectory.STATUS
+    status : code of status.STATUS
     strobes : float64, shape (cycles, 2), δ and v after each cycle; NaN from a failure on
     features : float64, shape (cycles, 4), see `advance`; NaN from a failure on
     """
@@ -256,7 +257,7 @@ def monodromy(parameters, tolerance, state, cycles, airborne):
 
     Returns
     -------
-    status : code of trajectory.STATUS
+    status : code of status.STATUS
     matrices : float64, shape (cycles, 2, 2), ∂(δ, Y)_end/∂(δ, Y)_start of each cycle; 0 behind a failure
     features : float64, shape (cycles, 4), see `advance`; 0 behind a failure
     """

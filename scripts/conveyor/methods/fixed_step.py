@@ -27,8 +27,8 @@ from ..solver import model, plate
 from ..solver.contact_lanes import LANES, new_memory, place
 from ..solver.horizontal import IMPACT, SAMPLES, SEPARATED, name_events
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers
-from ..solver.trajectory import NOT_FINITE, OK
-from ..solver.trajectory import STATUS as STATUS_NAMES
+from ..solver.status import NOT_FINITE, OK
+from ..solver.status import STATUS as STATUS_NAMES
 from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth, simple_power
 from .sine import sine_and_cosine
 
@@ -441,7 +441,7 @@ class Summary(NamedTuple):
     impact_speed: float  # m/s, largest speed of approach over the last part of the run
     peak_force: float  # N, largest contact force over the last part of the run
     evaluations: int  # of the force
-    status: str  # one of trajectory.STATUS
+    status: str  # one of status.STATUS
 
 
 def step_count(duration: float, step: float) -> int:

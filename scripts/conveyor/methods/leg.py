@@ -8,12 +8,8 @@ import numpy as np
 SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
 
 
-STATUSES = ("ok", "gave up", "stuck at an event", "step too small", "event lost", "not finite", "not installed")
-OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE, NOT_INSTALLED = STATUSES
-
-
 class Failed(Exception):
-    """A run does not reach its end; the arguments are its status and the evaluations of the leg that has not ended."""
+    """A run does not reach its end; arguments: the code of its status, and the evaluations of its unfinished leg."""
 
 
 class Task(NamedTuple):

@@ -22,8 +22,9 @@ import numpy as np
 from ..packing import as_rows, refuse_harmonics
 from ..parameters import LAST
 from ..solver import model
+from ..solver.status import GAVE_UP, NOT_FINITE, NOT_INSTALLED, OK, STATUS, STEP_TOO_SMALL, STUCK
 from . import cyrk_peer, heyoka_peer, scipy_peer, sundials_peer
-from .leg import GAVE_UP, NOT_FINITE, NOT_INSTALLED, OK, SIGN, STEP_TOO_SMALL, STUCK, Failed, Leg, Task
+from .leg import SIGN, Failed, Leg, Task
 from .modes import ENDS, gap_of, next_mode, plate_motion, put_beside, scales
 from .rivals import RIVALS, installed_version
 
@@ -48,7 +49,7 @@ class Summary(NamedTuple):
     vz: float  # m/s
     mean_velocity: float  # m/s, over the last part of the run
     evaluations: int  # of the right-hand side, those for Jacobians included
-    status: str  # one of leg.STATUSES
+    status: str  # one of STATUS
     samples: np.ndarray  # x, ẋ, z, ż at the wanted times, shape (k, 4)
     events: np.ndarray  # s, the times of impacts and separations, as far as the treatment finds them
 
@@ -152,8 +153,8 @@ def run(
     parameters = as_rows(parameters)
     trajectory = Trajectory(parameters, integrator, max_evaluations, np.asarray(times, dtype=np.float64))
 
-    def lost(status: str, evaluations: int) -> Summary:
-        return Summary(*(math.nan,) * 5, evaluations, status, np.full((len(times), 4), math.nan), np.empty(0))
+    def lost(status: int, evaluations: int) -> Summary:
+        return Summary(*(math.nan,) * 5, evaluations, STATUS[status], np.full((len(times), 4), math.nan), np.empty(0))
 
     if installed_version(integrator) is None:
         return lost(NOT_INSTALLED, 0)
@@ -171,4 +172,4 @@ def run(
     x, vx, z, vz = map(float, after)
     mean_velocity = (x - float(before[0])) / (LAST * duration)
     found = np.array(trajectory.samples).reshape(-1, 4), np.array(trajectory.events)
-    return Summary(x, vx, z, vz, mean_velocity, trajectory.evaluations, OK, *found)
+    return Summary(x, vx, z, vz, mean_velocity, trajectory.evaluations, STATUS[OK], *found)

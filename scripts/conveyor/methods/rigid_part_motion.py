@@ -20,7 +20,7 @@ from ..solver import contact, friction, model
 from ..solver.flight import Flight, gap, highest_gap, next_impact
 from ..solver.horizontal import slide
 from ..solver.jit import compiled, compiled_into_callers, copy
-from ..solver.trajectory import IMPACT_LOST, OK, STATUS, TOO_MANY_EVENTS
+from ..solver.status import IMPACT_LOST, OK, STATUS, TOO_MANY_EVENTS
 from . import rigid_part_rest
 from .restitution import restitution_at
 
@@ -212,7 +212,7 @@ class Summary(NamedTuple):
     mean_velocity: float  # m/s, over the last part of the run
     impacts: int
     max_gap: float  # m
-    status: str  # one of trajectory.STATUS
+    status: str  # one of status.STATUS
 
 
 def _follow(parameters, restitution, times, n_impacts=0):

@@ -3,7 +3,8 @@
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from .leg import EVENT_LOST, GAVE_UP, Failed, Leg, Task
+from ..solver.status import EVENT_LOST, GAVE_UP
+from .leg import Failed, Leg, Task
 from .modes import counted_rates, terminal_events
 
 

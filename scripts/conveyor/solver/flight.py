@@ -20,7 +20,7 @@ TURN = 2.0 * math.pi
 # by less than rounding errors.
 LEAVE = 1e-7
 # A gap below zero by more than this many rounding errors is an error of the search.
-LOST = 1e6
+MOST_ERRORS = 1e6
 
 # The take-off of a flight: height z (m), vertical velocity vz (m/s), phase theta (rad); contact.Constants.
 Flight = namedtuple("Flight", "z vz theta c")
@@ -96,7 +96,7 @@ def next_impact(flight, q, rate, limit):
         if q <= rounding and rate <= 0.0:
             return tau, -rate
         if q < 0.0:
-            return (tau if q > -LOST * rounding else math.nan), 0.0
+            return (tau if q > -MOST_ERRORS * rounding else math.nan), 0.0
         advance = 0.0
         if height > top + rounding:
             advance = time_of_fall(velocity, height - top, gravity)

@@ -34,7 +34,8 @@ from .horizontal import (
 )
 from .jit import compiled, compiled_inline, compiled_into_callers, no_refcount
 from .model import TENSION_CLIP, VZ0, Z0
-from .vertical import CONTACT, FLIGHT, LIMIT, LOST
+from .status import IMPACT_LOST, NOT_FINITE, OK, TOO_MANY_EVENTS, TOO_STIFF
+from .vertical import CONTACT, FLIGHT, LOST, TIME_LIMIT
 
 # Phase at which a cycle begins, rad: the plate is at its top, where a part that leaves the plate is in the air.
 BEGIN_OF_CYCLE = -math.pi
@@ -51,10 +52,6 @@ def time_to_next_cycle(c):
     """The time (s) from the initial phase ψ0 to the next beginning of a cycle; 0 if a cycle begins there."""
     return ((BEGIN_OF_CYCLE - c.psi0) % (2.0 * math.pi)) / c.omega
 
-
-# Status of a run.
-OK, TOO_MANY_EVENTS, TOO_STIFF, IMPACT_LOST, NOT_FINITE = range(5)
-STATUS = ("ok", "too many events", "contact too stiff", "impact not found", "not finite")
 
 # On a track, parts move for thousands of cycles. A motion that after a block of cycles differs from itself by no more
 # than this part of the plate's largest speed repeats itself. The cycles are whole periods of motions with the periods
@@ -145,10 +142,10 @@ def peak_of_step(c, kept, place, at, has_series, motion, piece, first, last):
 @compiled_into_callers
 def next_cycle(c, motion, piece):
     """The same Motion with its time in the cycle in which a Piece ends, and the number of cycles that have begun."""
-    if motion.t < c.period and piece.end != LIMIT:
+    if motion.t < c.period and piece.end != TIME_LIMIT:
         return motion, 0
-    cycles = 1 if piece.end == LIMIT else int(motion.t / c.period)
-    t = 0.0 if piece.end == LIMIT else max(motion.t - cycles * c.period, 0.0)
+    cycles = 1 if piece.end == TIME_LIMIT else int(motion.t / c.period)
+    t = 0.0 if piece.end == TIME_LIMIT else max(motion.t - cycles * c.period, 0.0)
     return vertical.in_cycle(c, motion, t, BEGIN_OF_CYCLE), cycles
 
 
@@ -243,7 +240,7 @@ def follow(parameters, options, records, results, room, distances):
                     status = IMPACT_LOST
                     break
                 max_gap = max(max_gap, highest_gap(vertical.flight_from(c, motion), piece.duration))
-                while sampled < record.times.size and (ends >= record.times[sampled] or piece.end == LIMIT):
+                while sampled < record.times.size and (ends >= record.times[sampled] or piece.end == TIME_LIMIT):
                     sample_flight(c, motion, horizontal, record.times[sampled] - begins, record.samples[sampled])
                     sampled += 1
                 if sampled == record.times.size:
@@ -256,7 +253,7 @@ def follow(parameters, options, records, results, room, distances):
                 repeats, steps = repeats + is_kept, steps + (not is_kept)
                 if not (motion.pulled and c.tension == TENSION_CLIP):
                     # A repeated step has the duration of the kept one, but counts up to the end of the cycle.
-                    lasts = c.period - motion.t if piece.end == LIMIT else piece.duration
+                    lasts = c.period - motion.t if piece.end == TIME_LIMIT else piece.duration
                     contact_time += min(lasts, end - begins)
                     if ends > since:
                         force = peak_of_step(c, kept, place, at, True, motion, piece, since - begins, end - begins)

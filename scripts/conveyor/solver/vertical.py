@@ -18,8 +18,9 @@ from .model import TENSION_ALLOW
 FLIGHT, GRAZE, CONTACT = range(3)
 # What a part at the plate's surface does: it goes on into the plate, is pressed on with no speed, or is left behind.
 ENTERS, RESTS, LEAVES = range(3)
-# Ends of a piece besides contact.NOTHING, SEPARATION and FORCE_SIGN; LOST is a flight whose impact was not found.
-IMPACT, LIMIT, LOST = range(3, 6)
+# Ends of a piece besides contact.NOTHING, SEPARATION and FORCE_SIGN: a flight's impact, the time at which the caller
+# wants the piece to end, and a flight whose impact was not found.
+LANDING, TIME_LIMIT, LOST = range(3, 6)
 
 # The motion at a time t (s) of its cycle, at the phase theta (rad) with the given sine and cosine. On the plate: the
 # square root w of the penetration (√m), the speed of approach v (m/s), and whether the contact force is negative
@@ -112,9 +113,9 @@ def flight_from(c, motion):
 def fly(c, motion, limit):
     """The Piece that is a flight from `motion`, of at most `limit` (s)."""
     tau, speed = next_impact(flight_from(c, motion), motion.q, motion.rate, limit)
-    end = IMPACT
+    end = LANDING
     if not tau < math.inf:
-        end, tau = (LIMIT, limit) if tau == math.inf else (LOST, tau)
+        end, tau = (TIME_LIMIT, limit) if tau == math.inf else (LOST, tau)
     phase = motion.theta + c.omega * tau
     return Piece(FLIGHT, tau, 0.0, end, 0.0, speed, math.sin(phase), math.cos(phase))
 
@@ -146,7 +147,7 @@ def press(c, series, at, motion, length, limit):
     """The Piece that is a contact step from `motion`, of at most `limit` (s); its series is good up to `length`."""
     length, w, v, lapse, end = contact.end_step(c, series, at, motion.w, motion.v, motion.pulled, length)
     if lapse > limit:
-        return cut_step(series, at, invert_time(series, at, length, limit), limit, LIMIT)
+        return cut_step(series, at, invert_time(series, at, length, limit), limit, TIME_LIMIT)
     sine = polynomial.value(series, at + workspace.SINE, length)
     cosine = polynomial.value(series, at + workspace.COSINE, length)
     return Piece(CONTACT, lapse, length, end, w, v, sine, cosine)
@@ -173,7 +174,7 @@ def arrive(c, motion, piece, origin):
     theta = origin + c.omega * t
     sine, cosine, v = piece.sine, piece.cosine, piece.v
     if piece.kind == FLIGHT:
-        if piece.end == IMPACT:
+        if piece.end == LANDING:
             return Motion(t, theta, sine, cosine, True, 0.0, v, False, 0.0, 0.0, 0.0, 0.0)
         q, rate = gap_at_phase(flight_from(c, motion), piece.duration, sine, cosine)
         z, vz = q + plate.height(c, sine, cosine), rate + plate.rise(c, sine, cosine)

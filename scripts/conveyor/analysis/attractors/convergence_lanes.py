@@ -16,7 +16,7 @@ from ...solver.contact_lanes import COSINE, END, LANES, LENGTH, NONE, ROWS, SINE
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
 from ...solver.trajectory import BEGIN_OF_CYCLE, MAX_PIECES, time_to_next_cycle
-from ...solver.vertical import FLIGHT, GRAZE, IMPACT, LIMIT, LOST, Motion, Piece
+from ...solver.vertical import FLIGHT, GRAZE, LANDING, LOST, TIME_LIMIT, Motion, Piece
 from ...solver.workspace import FIRST
 from ..stroboscopic_map import delta_and_v
 from . import convergence
@@ -60,7 +60,7 @@ def count_piece(piece, lane, steps, cycle):
     steps[STEPS, lane] += 1.0
     if piece.kind == FLIGHT:
         cycle[AIRBORNE, lane] += piece.duration
-        if piece.end == IMPACT:
+        if piece.end == LANDING:
             cycle[LONGEST, lane] = max(cycle[LONGEST, lane], cycle[AIRBORNE, lane])
             cycle[AIRBORNE, lane] = 0.0
 
@@ -118,7 +118,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
                 continue
             i, c, past, counts = trajectories[lane], constants[lane], histories[lane], counters[lane]
             motion = stopped_motion(lane, steps)
-            piece = Piece(GRAZE, 0.0, 0.0, LIMIT, 0.0, 0.0, 0.0, 0.0)
+            piece = Piece(GRAZE, 0.0, 0.0, TIME_LIMIT, 0.0, 0.0, 0.0, 0.0)
             if i != NONE:
                 contact_lanes.copy_series(steps, lane, series, FIRST)
                 piece = vertical.press(c, series, FIRST, motion, steps[LENGTH, lane], steps[END, lane] - motion.t)
@@ -128,7 +128,7 @@ def follow(parameters, tolerance, search, found, side_by_side, work):
                     count_piece(piece, lane, steps, cycle)
                     motion = vertical.arrive(c, motion, piece, cycle[ORIGIN, lane])
                     over = piece.end == LOST or not vertical.is_finite(motion) or steps[STEPS, lane] > MAX_PIECES
-                    if piece.end == LIMIT and not over:
+                    if piece.end == TIME_LIMIT and not over:
                         over = end_cycle(c, i, lane, motion, cycle, search, past, counts, found)
                         motion = begin_cycle(c, found.states[i], lane, steps, cycle)
                 if over:

@@ -19,7 +19,8 @@ from ... import linear_algebra
 from ...solver import contact, contact_law
 from ...solver.jit import compiled
 from ...solver.model import PSI0
-from ...solver.trajectory import BEGIN_OF_CYCLE, OK
+from ...solver.status import OK
+from ...solver.trajectory import BEGIN_OF_CYCLE
 from .. import stroboscopic_map
 from ..dimensionless_groups import length_and_speed_units
 from . import convergence, sampling

@@ -4,7 +4,7 @@ import numpy as np
 
 from ...arguments import MOST_CYCLES, check_count, check_tolerance
 from ...packing import check_rows
-from ...solver import trajectory
+from ...solver.status import NOT_FINITE, OK, STATUS
 from .. import stroboscopic_map
 
 
@@ -28,11 +28,11 @@ def follow_attractor(
     check_count("transient", transient, 0, MOST_CYCLES)
     check_count("strobes", strobes, 1, MOST_CYCLES)
     states = np.full((len(parameters), strobes, 2), np.nan)
-    codes = np.full(len(parameters), trajectory.NOT_FINITE)
+    codes = np.full(len(parameters), NOT_FINITE)
     (state,) = stroboscopic_map.initial_states(parameters[:1], tolerance)
     for i, row in enumerate(parameters):
         codes[i], visited, _ = stroboscopic_map.follow_map(row, tolerance, state, transient + strobes)
         states[i] = visited[transient:]
-        if codes[i] != trajectory.OK:
+        if codes[i] != OK:
             break
-    return states, np.array(trajectory.STATUS)[codes]
+    return states, np.array(STATUS)[codes]

@@ -19,7 +19,7 @@ from ... import linear_algebra
 from ...packing import as_rows
 from ...solver import contact, contact_law
 from ...solver.model import PSI0
-from ...solver.trajectory import OK
+from ...solver.status import OK
 from .. import stroboscopic_map
 from ..dimensionless_groups import Groups, groups_of, length_and_speed_units, packed
 from .newton import difference_quotients, newton

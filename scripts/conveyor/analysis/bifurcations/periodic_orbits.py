@@ -16,7 +16,7 @@ from ...packing import as_rows, check_rows
 from ...parameters import RANGES
 from ...solver import contact, contact_law
 from ...solver.model import ACCELERATION, FREQUENCY
-from ...solver.trajectory import OK
+from ...solver.status import OK
 from .. import stroboscopic_map
 from ..dimensionless_groups import length_and_speed_units
 from .newton import newton

@@ -14,9 +14,11 @@ from ...columns import Columns
 from ...packing import as_rows, check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
-from ...solver import contact, contact_law, trajectory
+from ...solver import contact, contact_law
 from ...solver.jit import compiled
 from ...solver.model import FREQUENCY, PSI0
+from ...solver.status import NOT_FINITE, OK, STATUS
+from ...solver.trajectory import BEGIN_OF_CYCLE
 from .. import stroboscopic_map
 from ..dimensionless_groups import length_and_speed_units
 from ..stroboscopic_map import MAX_PERIOD
@@ -48,7 +50,7 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
 
     Returns
     -------
-    status : code of trajectory.STATUS
+    status : code of status.STATUS
     stretches : float64, shape (cycles, 2), see stretching; NaN from a failure on
     contact_times : float64, shape (cycles,), s; NaN from a failure on
     """
@@ -63,7 +65,7 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
         for k in range(2):
             tangent[k, 1] *= c.omega
         status = stroboscopic_map.advance(c, series, state, phase, c.period, tangent, features)
-        if status != trajectory.OK:
+        if status != OK:
             return status, stretches, contact_times
         for k in range(2):
             tangent[k, 1] /= c.omega
@@ -74,7 +76,7 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
             tangent[1, 0], tangent[1, 1] = -tangent[0, 1], tangent[0, 0]
         if n >= 0:
             contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
-    return trajectory.OK, stretches, contact_times
+    return OK, stretches, contact_times
 
 
 def lyapunov_spectrum(
@@ -140,7 +142,7 @@ def lyapunov_spectrum(
     stretches = np.empty((len(parameters), blocks * cycles, 2))
     contact_times = np.empty((len(parameters), blocks * cycles))
     codes = np.zeros(len(parameters), dtype=np.int64)
-    phases = np.full(len(parameters), trajectory.BEGIN_OF_CYCLE) if begin_of_cycle else parameters[:, PSI0]
+    phases = np.full(len(parameters), BEGIN_OF_CYCLE) if begin_of_cycle else parameters[:, PSI0]
 
     def work(begin, end):
         for i in range(begin, end):
@@ -151,14 +153,14 @@ def lyapunov_spectrum(
     period = 1.0 / parameters[:, FREQUENCY]
     values, errors = stretching.exponents(stretches, blocks)
     # Where damping is so strong that a perturbation underflows within a cycle, no exponent is known.
-    codes[(codes == trajectory.OK) & ~np.isfinite(values).all(axis=1)] = trajectory.NOT_FINITE
-    values[codes != trajectory.OK] = np.nan
+    codes[(codes == OK) & ~np.isfinite(values).all(axis=1)] = NOT_FINITE
+    values[codes != OK] = np.nan
     # Where both exponents are equal, the first tangent vector may have grown a little less.
     order = np.argsort(-values, axis=1, kind="stable")
     values, errors = (np.take_along_axis(numbers / period[:, None], order, axis=1) for numbers in (values, errors))
     contact_fraction = contact_times.mean(axis=1) / period
     columns = {"lambda_1": values[:, 0], "lambda_2": values[:, 1], "stderr": errors[:, 0]}
-    columns |= {"contact_fraction": contact_fraction, "status": np.array(trajectory.STATUS, dtype=object)[codes]}
+    columns |= {"contact_fraction": contact_fraction, "status": np.array(STATUS, dtype=object)[codes]}
     return Columns({name: column.reshape(shape) for name, column in columns.items()})
 
 
@@ -224,14 +226,14 @@ def repeating_motion(
     """
     nothing = 0, (math.nan, math.nan), math.nan
     status, strobes, _ = stroboscopic_map.follow_map(parameters, tolerance, state, REPEATS_WITHIN)
-    period = find_period(strobes, np.array(length_and_speed_units(parameters))) if status == trajectory.OK else 0
+    period = find_period(strobes, np.array(length_and_speed_units(parameters))) if status == OK else 0
     if not period:
         return nothing
     status, matrices, features = stroboscopic_map.monodromy(parameters, tolerance, state, period, 0.0)
     constants = contact.constants(parameters, tolerance)
     contractions = contact_law.log_contraction(constants, features[:, stroboscopic_map.CONTACT_TIME])
     logarithms = stretching.log_multipliers(matrices, contractions)
-    if status != trajectory.OK or not math.isfinite(logarithms[0]):
+    if status != OK or not math.isfinite(logarithms[0]):
         return nothing
     return period, logarithms, float(features[:, stroboscopic_map.CONTACT_TIME].cumsum()[-1])
 
@@ -277,7 +279,7 @@ def lyapunov_spectrum_on_attractors(
     lambda_1, lambda_2 = (logarithms / time[:, None]).T
     spectrum = {"lambda_1": lambda_1, "lambda_2": lambda_2, "stderr": np.zeros(len(time))}
     spectrum["contact_fraction"] = contact_times / time
-    spectrum["status"] = np.full(len(time), trajectory.STATUS[trajectory.OK], dtype=object)
+    spectrum["status"] = np.full(len(time), STATUS[OK], dtype=object)
     for name, values in followed.items():
         spectrum[name][periods == 0] = values
     return Columns(spectrum)
