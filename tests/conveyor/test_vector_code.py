@@ -53,12 +53,19 @@ def test_contact_steps_are_vector_code(widest):
 
 
 @pytest.mark.parametrize(("method", "least"), [("euler", 30), ("semi_implicit_euler", 30), ("rk4", 90)])
-@pytest.mark.parametrize("tilted", [{}, {"inclination": 0.1, "phase_shift": 0.5, "static_friction": 0.5}])
-def test_fixed_steps_are_vector_code(widest, method, least, tilted):
+@pytest.mark.parametrize(
+    "plate",
+    [
+        {},
+        {"inclination": 0.1, "phase_shift": 0.5, "static_friction": 0.5},
+        {"harmonics": [{"order": 2, "normal": 0.1}, {"order": 5, "along": 0.1}]},
+    ],
+)
+def test_fixed_steps_are_vector_code(widest, method, least, plate):
     """A step has about twenty products and sums, and each evaluation of the forces in RK4 another twenty."""
 
     def count(runs):
-        parameters = np.array([pack(Conveyor(**tilted), Start())] * runs)
+        parameters = np.array([pack(Conveyor(**plate), Start())] * runs)
         fixed_step.run_all(parameters, 1e-5, 1e-6, method)
         kind = fixed_step.kind_of(fixed_step.METHODS.index(method), parameters)
         return vector_instructions(fixed_step.compiled_for(kind))[widest]

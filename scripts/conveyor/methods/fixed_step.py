@@ -15,6 +15,7 @@ machine gives the same digits.
 
 import functools
 import math
+from collections import namedtuple
 from typing import NamedTuple
 
 import numpy as np
@@ -33,7 +34,6 @@ from .force_law import contact_acceleration, friction_acceleration, least_push, 
 from .sine import sine_and_cosine
 
 FIRST_WAVE = len(PARAMETERS)  # place of the first harmonic in packed parameters
-BYTES = 8  # of a number
 EULER, SEMI_IMPLICIT_EULER, RK4 = range(len(METHODS))
 # Evaluations of the forces in a step of each method.
 EVALUATIONS = (1, 1, 4)
@@ -49,15 +49,21 @@ CHECK = 256  # steps between checks that the state is finite
 X, VX, Z, VZ, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, FORCE_EVALUATIONS, STATUS, IMPACT_SPEED, PEAK_FORCE = range(12)
 RESULTS = 12
 # At the present step: gap (m), forces per mass (m/s²), whether the gap was last seen closed (1 or 0), the slip velocity
-# (m/s) at the last step; only for exponents other than 1 and 1.5, δ^p (m^p), sine and cosine of the plate's phase.
-GAP, PUSH, RUB, IN_CONTACT, LAST_SLIP, POWER, SINE, COSINE = range(12, 20)
+# (m/s) at the last step; only for exponents other than 1 and 1.5, δ^p (m^p) and the plate's Shapes.
+GAP, PUSH, RUB, IN_CONTACT, LAST_SLIP, POWER, SHAPES = range(12, 19)
 # Constants: ω (rad/s), ψ0 (rad), the amplitudes of z_s, ż_s, ẋ_s, ẍ_s; k_c/m, d_c/m, p, μ, μ_s, gravity normal to the
 # track and down along it (m/s²); force_law.least_push and least_rub; cosine and sine of the phase shift.
-OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX, PLATE_AX = range(20, 26)
-STIFFNESS, DAMPING, EXPONENT, FRICTION, STATIC_FRICTION, GRAVITY, DOWNHILL = range(26, 33)
-LEAST_PUSH, LEAST_RUB, COS_SHIFT, SIN_SHIFT = range(33, 37)
+OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX, PLATE_AX = range(22, 28)
+STIFFNESS, DAMPING, EXPONENT, FRICTION, STATIC_FRICTION, GRAVITY, DOWNHILL = range(28, 35)
+LEAST_PUSH, LEAST_RUB, COS_SHIFT, SIN_SHIFT = range(35, 39)
 # The numbers of the plate's harmonics, as many as in the packed parameters.
-WAVES = 37
+WAVES = 39
+
+# z_s, ż_s, ẋ_s and ẍ_s at a moment, divided by the amplitudes of the fundamental (z_s by the negative one).
+Shapes = namedtuple("Shapes", "z vz vx ax")
+
+
+NO_WAVES = 2  # length of Kind.waves without harmonics: the orders 0 and 1
 
 
 class Kind(NamedTuple):
@@ -65,11 +71,11 @@ class Kind(NamedTuple):
 
     method: int  # the code of one of METHODS
     single: bool  # whether there is one trajectory only
-    alike: bool  # whether all plates have the same frequency and ψ0
+    alike: bool  # whether all plates have the same Shapes
     tilted: bool  # whether there are inclinations or phase shifts
     sticks: bool  # whether there are static frictions larger than the friction
     has_powers: bool  # whether there are exponents other than 1 and 1.5
-    harmonics: int  # number of harmonics of each plate
+    waves: tuple[int, ...]  # for each order from 0 to the highest, the first row of its harmonic in the memory, or 0
 
 
 @compiled_inline
@@ -79,54 +85,91 @@ def sine_and_cosine_by(method, phase):
 
 
 @compiled_inline
-def turn_plate(method, memory, lane, i, step):
-    """Sines and cosines of the plate's phase for step number i, of a length (s): at its end, where the next forces act.
-
-    For RK4 also in its middle and, as reckoned from its beginning, at its end; else zeros.
-    """
-    omega, psi0 = memory[place(OMEGA, lane)], memory[place(PSI0, lane)]
-    sine, cosine = sine_and_cosine_by(method, omega * ((i + 1) * step) + psi0)
-    if method != RK4:
-        return sine, cosine, 0.0, 0.0, 0.0, 0.0
-    phase, turn = omega * (i * step) + psi0, omega * step
-    middle, end = phase + 0.5 * turn, phase + turn
-    return sine, cosine, math.sin(middle), math.cos(middle), math.sin(end), math.cos(end)
+def harmonic_at(memory, lane, order, first):
+    """The numbers of a harmonic, in the order of plate.K, from their first row."""
+    return (
+        float(order),
+        memory[place(first + 1, lane)],
+        memory[place(first + 2, lane)],
+        memory[place(first + 3, lane)],
+        memory[place(first + 4, lane)],
+    )
 
 
 @compiled_inline
-def turn_plates(memory, i, step, sines, cosines):
-    """Write sine and cosine of `turn_plate` for CHECK steps of explicit Euler from number i on, for alike plates.
+def shapes_at(kind, memory, lane, phase):
+    """The Shapes of a plate at a phase (rad)."""
+    sine, cosine = sine_and_cosine_by(kind.method, phase)
+    along, pull = sine, cosine
+    if kind.tilted:
+        ahead, straight = memory[place(SIN_SHIFT, lane)], memory[place(COS_SHIFT, lane)]
+        along, pull = sine * straight + cosine * ahead, cosine * straight - sine * ahead
+    if len(kind.waves) == NO_WAVES:
+        return Shapes(cosine, sine, along, pull)
+    added, s, c = plate.NO_SUMS, sine, cosine
+    # A single loop whose bounds are known: LLVM writes it out. Else the loops over the lanes would not become vector
+    # code, and steps with two harmonics would take eight times as long as without.
+    for order in range(2, len(kind.waves)):
+        s, c = s * cosine + c * sine, c * cosine - s * sine
+        if kind.waves[order] > 0:
+            added = plate.add_harmonic(added, harmonic_at(memory, lane, order, kind.waves[order]), s, c)
+    return Shapes(cosine + added.z, sine + added.vz, along + added.vx, pull + added.ax)
+
+
+@compiled_inline
+def turn_plate(kind, memory, lane, i, step):
+    """The plate's Shapes in step number i, of a length (s): at its end, where the next forces act.
+
+    For RK4 also in its middle and, as reckoned from its beginning, at its end; else these are the first again.
+    """
+    omega, psi0 = memory[place(OMEGA, lane)], memory[place(PSI0, lane)]
+    end = shapes_at(kind, memory, lane, omega * ((i + 1) * step) + psi0)
+    if kind.method != RK4:
+        return end, end, end
+    phase, turn = omega * (i * step) + psi0, omega * step
+    middle = shapes_at(kind, memory, lane, phase + 0.5 * turn)
+    return end, middle, shapes_at(kind, memory, lane, phase + turn)
+
+
+@compiled_inline
+def turn_plates(kind, memory, i, step, shapes):
+    """Write the Shapes for CHECK steps of explicit Euler from number i on, for alike plates.
 
     In this loop, LLVM computes the sines of several steps at once. That halves the time of a single trajectory.
     """
     for n in range(CHECK):
         at = np.uint64(n)
-        sines[at], cosines[at], _, _, _, _ = turn_plate(EULER, memory, np.uint64(0), i + n, step)
+        end, _, _ = turn_plate(kind, memory, np.uint64(0), i + n, step)
+        for k in range(4):
+            shapes[at + np.uint64(k * CHECK)] = end[k]
 
 
 @compiled_inline
-def plate_shapes(kind, memory, lane, sine, cosine):
-    """z_s, ż_s, ẋ_s and ẍ_s, divided by their amplitudes (z_s by the negative one), at a phase."""
-    along, pull = sine, cosine
-    if kind.tilted:
-        ahead, straight = memory[place(SIN_SHIFT, lane)], memory[place(COS_SHIFT, lane)]
-        along, pull = sine * straight + cosine * ahead, cosine * straight - sine * ahead
-    if kind.harmonics == 0:
-        return cosine, sine, along, pull
-    waves = memory.ctypes.data + BYTES * np.int64(place(WAVES, lane))
-    added = plate.sums(waves, LANES, kind.harmonics, sine, cosine)
-    return cosine + added.z, sine + added.vz, along + added.vx, pull + added.ax
+def written_shapes(shapes, at, stride):
+    """The Shapes at a place of an array, whose four numbers have a distance of `stride`."""
+    return Shapes(shapes[at], shapes[at + stride], shapes[at + stride + stride], shapes[at + stride + stride + stride])
 
 
 @compiled_inline
-def forces(kind, memory, lane, vx, z, vz, sine, cosine, is_raised):
+def write_shapes(memory, lane, shapes):
+    """Write Shapes into the memory."""
+    for k in range(4):
+        memory[place(SHAPES + k, lane)] = shapes[k]
+
+
+@compiled_inline
+def shapes_in_memory(memory, lane):
+    """The Shapes in the memory."""
+    return written_shapes(memory, place(SHAPES, lane), np.uint64(LANES))
+
+
+@compiled_inline
+def forces(kind, memory, lane, vx, z, vz, shapes, is_raised):
     """Gap (m), F_c/m, F_r/m (m/s², Eqs. 7, 11 and 12) and slip velocity (m/s) of a state.
 
-    sine, cosine : of the plate's phase
     is_raised : whether POWER holds δ^p
     """
-    height, rise, along, _ = plate_shapes(kind, memory, lane, sine, cosine)
-    gap = z + memory[place(PLATE_Z, lane)] * height
+    gap = z + memory[place(PLATE_Z, lane)] * shapes.z
     exponent = memory[place(EXPONENT, lane)]
     if is_raised:
         power = memory[place(POWER, lane)]
@@ -134,23 +177,22 @@ def forces(kind, memory, lane, vx, z, vz, sine, cosine, is_raised):
         power = power_of_depth(-gap, exponent) if kind.has_powers else simple_power(-gap, exponent)
     push = contact_acceleration(
         gap,
-        memory[place(PLATE_VZ, lane)] * rise - vz,
+        memory[place(PLATE_VZ, lane)] * shapes.vz - vz,
         power,
         memory[place(STIFFNESS, lane)],
         memory[place(DAMPING, lane)],
         memory[place(LEAST_PUSH, lane)],
     )
-    slip = memory[place(PLATE_VX, lane)] * along - vx
+    slip = memory[place(PLATE_VX, lane)] * shapes.vx - vx
     rub = friction_acceleration(push, slip, memory[place(FRICTION, lane)], memory[place(LEAST_RUB, lane)])
     return gap, push, rub, slip
 
 
 @compiled_into_callers
-def stick(kind, memory, lane, gap, push, rub, slip, sine, cosine):
+def stick(memory, lane, gap, push, rub, slip, shapes):
     """F_r/m of a part that sticks if its slip has vanished, or `rub`; a part that sticks gets the plate's velocity."""
     vx = memory[place(VX, lane)]
-    _, _, _, share = plate_shapes(kind, memory, lane, sine, cosine)
-    pull = memory[place(PLATE_AX, lane)] * share + memory[place(DOWNHILL, lane)]
+    pull = memory[place(PLATE_AX, lane)] * shapes.ax + memory[place(DOWNHILL, lane)]
     static_friction = memory[place(STATIC_FRICTION, lane)]
     vanished = (static_friction > memory[place(FRICTION, lane)]) & (memory[place(LAST_SLIP, lane)] * slip <= 0.0)
     sticks = (gap <= 0.0) & vanished & (abs(pull) <= static_friction * push)
@@ -160,31 +202,29 @@ def stick(kind, memory, lane, gap, push, rub, slip, sine, cosine):
 
 
 @compiled_inline
-def find_forces(kind, memory, lane, sine, cosine):
+def find_forces(kind, memory, lane, shapes):
     """Write GAP, PUSH and RUB of the present state. Returns whether the gap has opened or closed."""
     vx, z, vz = memory[place(VX, lane)], memory[place(Z, lane)], memory[place(VZ, lane)]
-    gap, push, rub, slip = forces(kind, memory, lane, vx, z, vz, sine, cosine, kind.has_powers)
+    gap, push, rub, slip = forces(kind, memory, lane, vx, z, vz, shapes, kind.has_powers)
     if kind.sticks:
-        rub = stick(kind, memory, lane, gap, push, rub, slip, sine, cosine)
+        rub = stick(memory, lane, gap, push, rub, slip, shapes)
     memory[place(GAP, lane)], memory[place(PUSH, lane)], memory[place(RUB, lane)] = gap, push, rub
     return (gap <= 0.0) != (memory[place(IN_CONTACT, lane)] > 0.0)
 
 
 @compiled_inline
 def find_forces_of_all(kind, lanes, memory):
-    """`find_forces` of all lanes, with SINE and COSINE in memory. Returns whether a gap has opened or closed."""
+    """`find_forces` of all lanes, with the plate's Shapes in memory. Returns whether a gap has opened or closed."""
     if kind.has_powers:
         # In a loop of its own, because powers take one number at a time.
         for k in range(lanes):
             lane = np.uint64(k)
-            sine, cosine = memory[place(SINE, lane)], memory[place(COSINE, lane)]
-            height, _, _, _ = plate_shapes(kind, memory, lane, sine, cosine)
-            gap = memory[place(Z, lane)] + memory[place(PLATE_Z, lane)] * height
+            gap = memory[place(Z, lane)] + memory[place(PLATE_Z, lane)] * memory[place(SHAPES, lane)]
             memory[place(POWER, lane)] = power_of_depth(-gap, memory[place(EXPONENT, lane)])
     changed = False
     for k in range(lanes):
         lane = np.uint64(k)
-        changed |= find_forces(kind, memory, lane, memory[place(SINE, lane)], memory[place(COSINE, lane)])
+        changed |= find_forces(kind, memory, lane, shapes_in_memory(memory, lane))
     return changed
 
 
@@ -200,18 +240,18 @@ def count_step(memory, lane):
 
 
 @compiled_into_callers
-def rk4_step(kind, memory, lane, state, gravity, downhill, sines, step):
+def rk4_step(kind, memory, lane, state, gravity, downhill, shapes, step):
     """(x, vx, z, vz) one classical Runge-Kutta step (s) later; the rest as in `take_step`."""
     x, vx1, z, vz1 = state
     push1, rub1 = memory[place(PUSH, lane)], memory[place(RUB, lane)]
     half = 0.5 * step
-    _, _, middle_sine, middle_cosine, end_sine, end_cosine = sines
+    _, middle, end = shapes
     vx2, vz2 = vx1 + half * (rub1 - downhill), vz1 + half * (push1 - gravity)
-    _, push2, rub2, _ = forces(kind, memory, lane, vx2, z + half * vz1, vz2, middle_sine, middle_cosine, False)
+    _, push2, rub2, _ = forces(kind, memory, lane, vx2, z + half * vz1, vz2, middle, False)
     vx3, vz3 = vx1 + half * (rub2 - downhill), vz1 + half * (push2 - gravity)
-    _, push3, rub3, _ = forces(kind, memory, lane, vx3, z + half * vz2, vz3, middle_sine, middle_cosine, False)
+    _, push3, rub3, _ = forces(kind, memory, lane, vx3, z + half * vz2, vz3, middle, False)
     vx4, vz4 = vx1 + step * (rub3 - downhill), vz1 + step * (push3 - gravity)
-    _, push4, rub4, _ = forces(kind, memory, lane, vx4, z + step * vz3, vz4, end_sine, end_cosine, False)
+    _, push4, rub4, _ = forces(kind, memory, lane, vx4, z + step * vz3, vz4, end, False)
     return (
         x + step / 6.0 * (vx1 + 2.0 * (vx2 + vx3) + vx4),
         vx1 + step / 6.0 * (rub1 + 2.0 * (rub2 + rub3) + rub4) - step * downhill,
@@ -221,15 +261,12 @@ def rk4_step(kind, memory, lane, state, gravity, downhill, sines, step):
 
 
 @compiled_into_callers
-def take_step(kind, memory, lane, sines, step):
-    """Advance a state by one step (s), with the forces in memory.
-
-    sines : from `turn_plate`
-    """
+def take_step(kind, memory, lane, shapes, step):
+    """Advance a state by one step (s), with the forces in memory; `shapes` are those of `turn_plate`."""
     x, vx, z, vz = memory[place(X, lane)], memory[place(VX, lane)], memory[place(Z, lane)], memory[place(VZ, lane)]
     gravity, downhill = memory[place(GRAVITY, lane)], memory[place(DOWNHILL, lane)] if kind.tilted else 0.0
     if kind.method == RK4:
-        x, vx, z, vz = rk4_step(kind, memory, lane, (x, vx, z, vz), gravity, downhill, sines, step)
+        x, vx, z, vz = rk4_step(kind, memory, lane, (x, vx, z, vz), gravity, downhill, shapes, step)
     else:
         next_vx = vx + step * (memory[place(RUB, lane)] - downhill)
         next_vz = vz + step * (memory[place(PUSH, lane)] - gravity)
@@ -242,29 +279,29 @@ def take_step(kind, memory, lane, sines, step):
 
 
 @compiled_inline
-def take_steps(kind, lanes, memory, i, stop, step, sines, cosines):
+def take_steps(kind, lanes, memory, i, stop, step, plates):
     """Take steps from number i on, to `stop` or until a gap opens or closes. Returns the number of the next step.
 
-    sines, cosines : from `turn_plates`, for the CHECK steps that hold these ones
+    plates : from `turn_plates`, for the CHECK steps that hold these ones
     """
     changed = False
     while not changed and i != stop:
         if kind.alike and kind.method == EULER:
-            at = np.uint64(i % CHECK)
-            plate = sines[at], cosines[at], 0.0, 0.0, 0.0, 0.0
+            end = written_shapes(plates, np.uint64(i % CHECK), np.uint64(CHECK))
+            shapes = end, end, end
         elif kind.alike:
-            plate = turn_plate(kind.method, memory, np.uint64(0), i, step)
+            shapes = turn_plate(kind, memory, np.uint64(0), i, step)
         for k in range(lanes):
             lane = np.uint64(k)
             if not kind.alike:
-                plate = turn_plate(kind.method, memory, lane, i, step)
+                shapes = turn_plate(kind, memory, lane, i, step)
             count_step(memory, lane)
-            take_step(kind, memory, lane, plate, step)
+            take_step(kind, memory, lane, shapes, step)
             if kind.has_powers:
-                memory[place(SINE, lane)], memory[place(COSINE, lane)] = plate[0], plate[1]
+                write_shapes(memory, lane, shapes[0])
             else:
                 # In the same loop, which halves the time.
-                changed |= find_forces(kind, memory, lane, plate[0], plate[1])
+                changed |= find_forces(kind, memory, lane, shapes[0])
         if kind.has_powers:
             changed = find_forces_of_all(kind, lanes, memory)
         i += 1
@@ -278,7 +315,6 @@ def prepare(kind, parameters, flat, memory, lane):
     sine_angle, cosine_angle = sine_and_cosine_by(method, parameters[model.ANGLE])
     sine_track, cosine_track = sine_and_cosine_by(method, parameters[model.INCLINATION])
     ahead, straight = sine_and_cosine_by(method, parameters[model.PHASE_SHIFT])
-    sine, cosine = sine_and_cosine_by(method, parameters[model.PSI0])
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     mass = parameters[model.MASS]
     a_z, a_x = parameters[model.ACCELERATION] * sine_angle, parameters[model.ACCELERATION] * cosine_angle
@@ -295,11 +331,12 @@ def prepare(kind, parameters, flat, memory, lane):
     memory[SIN_SHIFT, lane], memory[COS_SHIFT, lane] = ahead, straight
     memory[LEAST_PUSH, lane] = least_push(parameters[model.TENSION])
     memory[LEAST_RUB, lane] = least_rub(parameters[model.TENSION])
-    for k in range(plate.NUMBERS * kind.harmonics):
+    for k in range(len(parameters) - FIRST_WAVE):
         memory[WAVES + k, lane] = parameters[FIRST_WAVE + k]
-    height, _, along, _ = plate_shapes(kind, flat, np.uint64(lane), sine, cosine)
-    memory[LAST_SLIP, lane] = memory[PLATE_VX, lane] * along
-    surface = -memory[PLATE_Z, lane] * height
+    shapes = shapes_at(kind, flat, np.uint64(lane), parameters[model.PSI0])
+    write_shapes(flat, np.uint64(lane), shapes)
+    memory[LAST_SLIP, lane] = memory[PLATE_VX, lane] * shapes.vx
+    surface = -memory[PLATE_Z, lane] * shapes.z
     memory[Z, lane] = surface if math.isnan(parameters[model.Z0]) else parameters[model.Z0]
     memory[VZ, lane] = parameters[model.VZ0]
     memory[MAX_GAP, lane] = memory[Z, lane] - surface
@@ -360,9 +397,8 @@ def record_events(kind, first, flat, memory, running, events, time):
             memory[EVENTS, lane] += 1.0
             memory[IMPACTS, lane] += touching
             if touching:
-                sine, cosine = sine_and_cosine_by(kind.method, memory[OMEGA, lane] * time + memory[PSI0, lane])
-                _, rise, _, _ = plate_shapes(kind, flat, np.uint64(lane), sine, cosine)
-                speed = memory[PLATE_VZ, lane] * rise - memory[VZ, lane]
+                shapes = shapes_at(kind, flat, np.uint64(lane), memory[OMEGA, lane] * time + memory[PSI0, lane])
+                speed = memory[PLATE_VZ, lane] * shapes.vz - memory[VZ, lane]
                 memory[IMPACT_SPEED, lane] = max(memory[IMPACT_SPEED, lane], speed)
             memory[IN_CONTACT, lane] = touching
 
@@ -380,7 +416,7 @@ def compiled_for(kind):
         is_known = method != SEMI_IMPLICIT_EULER and not kind.has_powers
         lanes = 1 if kind.single else LANES if is_known else memory.shape[1]
         running = np.empty(lanes, np.bool_)
-        sines, cosines = np.empty(CHECK), np.empty(CHECK)
+        plates = np.empty(4 * CHECK)
         for first in range(0, len(parameters), lanes):
             # A lane without a trajectory hangs in the air, without gravity.
             for k in range(len(flat)):
@@ -390,7 +426,6 @@ def compiled_for(kind):
                 running[lane] = first + lane < len(parameters)
                 if running[lane]:
                     prepare(kind, parameters[first + lane], flat, memory, lane)
-                memory[SINE, lane], memory[COSINE, lane] = sine_and_cosine_by(method, memory[PSI0, lane])
             find_forces_of_all(kind, lanes, flat)
             i = n_sampled = 0
             while True:
@@ -403,27 +438,33 @@ def compiled_for(kind):
                     if record_results(parameters, first, memory, running, results, step, evaluations, is_end) == 0:
                         break
                     if kind.alike and method == EULER:
-                        turn_plates(flat, i, step, sines, cosines)
+                        turn_plates(kind, flat, i, step, plates)
                 record_events(kind, first, flat, memory, running, events, i * step)
                 stop = min(n_steps, i - i % CHECK + CHECK)
                 if n_sampled < len(sample_indices):
                     stop = min(stop, sample_indices[n_sampled])
-                i = take_steps(kind, lanes, flat, i, stop, step, sines, cosines)
+                i = take_steps(kind, lanes, flat, i, stop, step, plates)
 
     return integrate
 
 
 def kind_of(method: int, parameters: np.ndarray) -> Kind:
     """The Kind of steps with the code of a method that trajectories need, for packed `parameters`, shape (n, 16)."""
-    phases = parameters[:, [model.FREQUENCY, model.PSI0]]
+    waves = parameters[:, FIRST_WAVE:]
+    orders = waves[0, plate.K :: plate.NUMBERS].astype(np.int64)
+    if (waves[:, plate.K :: plate.NUMBERS] != orders).any():
+        raise ValueError("harmonics of conveyors that are followed together must have the same orders")
+    rows = np.zeros(orders.max(initial=1) + 1, np.int64)
+    rows[orders] = WAVES + plate.NUMBERS * np.arange(len(orders))
+    plates = np.hstack([parameters[:, [model.FREQUENCY, model.PSI0, model.PHASE_SHIFT]], waves])
     return Kind(
         method,
         single=len(parameters) == 1,
-        alike=bool((phases == phases[:1]).all()),
+        alike=bool((plates == plates[:1]).all()),
         tilted=bool((parameters[:, [model.INCLINATION, model.PHASE_SHIFT]] != 0.0).any()),
         sticks=bool((parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any()),
         has_powers=bool((~np.isin(parameters[:, model.EXPONENT], (1.0, 1.5))).any()),
-        harmonics=(parameters.shape[1] - FIRST_WAVE) // plate.NUMBERS,
+        waves=tuple(rows.tolist()),
     )
 
 

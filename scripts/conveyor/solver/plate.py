@@ -32,6 +32,7 @@ PHASES, FINER = 4096, 3
 # What harmonics add to position, velocity and acceleration normal to the track (z, vz, az) and along it (x, vx, ax), as
 # shares of the fundamental's amplitudes; the position with the opposite sign.
 Sums = namedtuple("Sums", "z vz az x vx ax")
+NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 # Bounds: on position (m), acceleration (m/s²) and its rate (m/s³) normal to the track; on acceleration and its rate
 # along the track, as multiples of a_x and a_x ω.
 Bounds = namedtuple("Bounds", "height lift jerk pull pull_rate")
@@ -47,39 +48,27 @@ def multiple(order, sine, cosine):
 
 
 @compiled_inline
-def numbers(waves, stride, h):
-    """The numbers of harmonic h, in the order above.
-
-    waves, stride : address of the first number of the first harmonic, and the distance from one number to the next
-    """
+def numbers_of(c, h):
+    """The numbers of harmonic h of a conveyor, in the order above."""
     first = h * NUMBERS
     return (
-        number_at(waves, (first + K) * stride),
-        number_at(waves, (first + ALONG_COSINE) * stride),
-        number_at(waves, (first + ALONG_SINE) * stride),
-        number_at(waves, (first + NORMAL_COSINE) * stride),
-        number_at(waves, (first + NORMAL_SINE) * stride),
+        number_at(c.waves, first + K),
+        number_at(c.waves, first + ALONG_COSINE),
+        number_at(c.waves, first + ALONG_SINE),
+        number_at(c.waves, first + NORMAL_COSINE),
+        number_at(c.waves, first + NORMAL_SINE),
     )
 
 
 @compiled_inline
-def numbers_of(c, h):
-    """The numbers of harmonic h of a conveyor."""
-    return numbers(c.waves, 1, h)
-
-
-@compiled_inline
-def sums(waves, stride, count, sine, cosine):
-    """The Sums at the phase with a sine and cosine, of `count` harmonics; `waves` and `stride` as in `numbers`."""
-    z = vz = az = x = vx = ax = 0.0
-    for h in range(count):
-        k, along_cosine, along_sine, normal_cosine, normal_sine = numbers(waves, stride, h)
-        s, c = multiple(int(k), sine, cosine)
-        wave, slope = normal_cosine * c - normal_sine * s, normal_cosine * s + normal_sine * c
-        z, vz, az = z + wave / (k * k), vz + slope / k, az + wave
-        wave, slope = along_cosine * c - along_sine * s, along_cosine * s + along_sine * c
-        x, vx, ax = x + wave / (k * k), vx + slope / k, ax + wave
-    return Sums(z, vz, az, x, vx, ax)
+def add_harmonic(sums, harmonic, s, c):
+    """The Sums with one more harmonic, given by its numbers; s and c are sine and cosine of kθ."""
+    z, vz, az, x, vx, ax = sums
+    k, along_cosine, along_sine, normal_cosine, normal_sine = harmonic
+    wave, slope = normal_cosine * c - normal_sine * s, normal_cosine * s + normal_sine * c
+    z, vz, az = z + wave / (k * k), vz + slope / k, az + wave
+    wave, slope = along_cosine * c - along_sine * s, along_cosine * s + along_sine * c
+    return Sums(z, vz, az, x + wave / (k * k), vx + slope / k, ax + wave)
 
 
 @compiled_inline
@@ -91,7 +80,11 @@ def has_harmonics(c):
 @compiled_inline
 def sums_of(c, sine, cosine):
     """The Sums of a conveyor at the phase with a sine and cosine."""
-    return sums(c.waves, 1, c.harmonics, sine, cosine)
+    sums = NO_SUMS
+    for h in range(c.harmonics):
+        harmonic = numbers_of(c, h)
+        sums = add_harmonic(sums, harmonic, *multiple(int(harmonic[K]), sine, cosine))
+    return sums
 
 
 @compiled
@@ -173,10 +166,19 @@ def rise_between(c, from_sine, from_cosine, sine, cosine):
 @compiled
 def sums_at(harmonics, phases):
     """The Sums, float64, shape (n, 6), of packed harmonics, shape (n, 5 h), at phases (rad), shape (n,)."""
-    found, count = np.empty((len(phases), 6)), harmonics.shape[1] // NUMBERS
+    found = np.empty((len(phases), 6))
     for i in range(len(phases)):
-        waves = np.ascontiguousarray(harmonics[i])
-        copy(found[i], sums(waves.ctypes.data, 1, count, math.sin(phases[i]), math.cos(phases[i])))
+        sums, sine, cosine = NO_SUMS, math.sin(phases[i]), math.cos(phases[i])
+        for h in range(0, harmonics.shape[1], NUMBERS):
+            harmonic = (
+                harmonics[i, h + K],
+                harmonics[i, h + ALONG_COSINE],
+                harmonics[i, h + ALONG_SINE],
+                harmonics[i, h + NORMAL_COSINE],
+                harmonics[i, h + NORMAL_SINE],
+            )
+            sums = add_harmonic(sums, harmonic, *multiple(int(harmonic[K]), sine, cosine))
+        copy(found[i], sums)
     return found
 
 

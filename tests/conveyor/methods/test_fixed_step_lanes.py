@@ -45,8 +45,11 @@ def bits(found):
     return np.where(np.isnan(row), math.nan, row).view(np.int64)
 
 
-def random_parameters(n, seed):
-    """Random conveyors; parts that start in, on or above the plate; every fifth part leaves the range of numbers."""
+def random_parameters(n, seed, orders=()):
+    """Random conveyors; parts that start in, on or above the plate; every fifth part leaves the range of numbers.
+
+    orders : of the harmonics of the plates
+    """
     rng = np.random.default_rng(seed)
     rows = []
     for k in range(n):
@@ -60,6 +63,7 @@ def random_parameters(n, seed):
             damping=rng.uniform(0.0, 1.0),
             exponent=exponent,
             tension=TENSION_MODES[rng.integers(3)],
+            harmonics=[{"order": k, "along": 0.2, "normal": rng.uniform(0.0, 0.3), "along_phase": 1.0} for k in orders],
             **(TILTED if k % 3 == 1 else {"friction": rng.uniform(0.0, 0.5)}),
         )
         height = [rng.uniform(-1e-4, 0.0), rng.uniform(0.0, 1e-3), "conveyor"][rng.integers(3)]
@@ -140,10 +144,11 @@ def test_sine_and_cosine_of_zero_are_exact():
     assert values.tolist() == [[0.0, 1.0]]
 
 
+@pytest.mark.parametrize("orders", [(), (2, 5)])
 @pytest.mark.parametrize("method", range(len(fixed_step.METHODS)))
-def test_a_group_agrees_with_single_runs(method):
+def test_a_group_agrees_with_single_runs(method, orders):
     """For one, two, four, eight and any other number of trajectories side by side."""
-    parameters = random_parameters(17, seed=100)
+    parameters = random_parameters(17, 100, orders)
     single = np.concatenate([bits(follow(parameters[[k]], method=method)) for k in range(17)])
     for n in (1, 2, 3, 4, 7, 8, 9, 17):
         found = follow(parameters[:n], method=method)
@@ -153,6 +158,20 @@ def test_a_group_agrees_with_single_runs(method):
     assert (found[2][:, IMPACTS] > 1).sum() > 5
     assert set(status) == {fixed_step.OK, fixed_step.NOT_FINITE}
     assert len(set(evaluations)) > 1
+
+
+def test_plates_of_a_group_have_harmonics_of_the_same_orders():
+    parameters = np.concatenate([random_parameters(1, 100, orders) for orders in ((2, 5), (2, 4))])
+    with pytest.raises(ValueError, match="same orders"):
+        follow(parameters)
+
+
+def test_plates_that_differ_only_in_their_harmonics_are_not_alike():
+    parameters = np.tile(pack(Conveyor(acceleration=40.0, harmonics=[{"order": 2, "normal": 0.1}]), Start()), (2, 1))
+    parameters[1, -1] += 0.1
+    single = np.concatenate([bits(follow(parameters[[k]])) for k in range(2)])
+    np.testing.assert_array_equal(bits(follow(parameters)), single)
+    assert (single[0] != single[1]).any()
 
 
 def test_neither_order_nor_neighbours_nor_chunks_matter():
