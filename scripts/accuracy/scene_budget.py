@@ -123,8 +123,9 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
         shown = shown._replace(drawn=("state",), what="state", settled=True)
     thinned = observables.thin_axes(settings["axes"], budget["points"][section])
     _, parameters = grid.product(thinned, settings["model"])
-    portrait = {"begin": CYCLES / float(parameters["frequency"][0]), "samples": SAMPLES}
-    settings = settings | {"axes": thinned} | (portrait if section == "dimensions" else {"settling": CYCLES})
+    settings = settings | {"axes": thinned, "settling": CYCLES}
+    if section == "dimensions":
+        settings["samples"] = SAMPLES
     full_settings = settings | {"needs": "feeding", "tolerance": TIGHT}
     # Runs without timing come first, because they compile or load all code that the variants use.
     shown.observe(settings | {"axes": observables.thin_axes(thinned, budget["points"][section] // FEW)})

@@ -14,6 +14,7 @@ from conveyor import (
 from pipeline import fields, grid
 from pipeline.labelling import Limits, Table, find_limits, is_slow, label_within_limits, shared_attractors
 
+RESOLUTION = 2e-6  # to which bisection locates a height, as a share of the scanned range: 1 nm of the range of Fig. 8
 NOT_LOCATED = "between two heights of the scan"
 TABLES = {
     "critical": (
@@ -51,12 +52,13 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     known = shared_attractors(parameters, (len(parameters), len(heights)), settings, threads=threads)
     starts = replace_parameters(np.full(len(heights), parameters[0]), z0=heights)
     # Bisection takes searches, too.
-    decisions = count_decisions(heights, settings["resolution"])
+    resolution = RESOLUTION * (heights[-1] - heights[0])
+    decisions = count_decisions(heights, resolution)
     table = Table(parameters, starts, (len(parameters), decisions))
     slow = is_slow(table, settings, known=known, threads=threads)
     limits = find_limits(parameters, table, known, settings, threads=threads) if slow else None
     crossings = find_crossings(
-        parameters, heights, lambda rows: find_states(rows, settings, known, limits, threads), settings["resolution"]
+        parameters, heights, lambda rows: find_states(rows, settings, known, limits, threads), resolution
     )
     first_row = np.searchsorted(crossings.point, crossings.point)
     return {

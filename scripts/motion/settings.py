@@ -16,14 +16,12 @@ from ..pipeline.settings import (
     check_ascending,
     number,
     span,
-    whole,
 )
 
 
 class Critical(Followed):
     duration: NotRequired[Duration]
     scan: axis(HeightNumber, "initial heights that are scanned for changes", least=2, check=check_ascending)
-    resolution: number("accuracy of a critical height", "m", ge=1e-15, le=1)
 
 
 class Signal(Followed):
@@ -33,8 +31,6 @@ class Signal(Followed):
 
 class Spectrum(Followed):
     duration: NotRequired[Duration]
-    last: number("share of the run that is transformed", "of the duration", gt=0, le=1)
-    samples_per_cycle: whole("samples per excitation cycle", 8, 10**6)
 
 
 class Impacts(TypedDict):

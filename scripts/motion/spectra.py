@@ -15,16 +15,17 @@ TABLES = {
 }
 
 SIGNALS = ("vx", "vz")
+# Share of the run that is transformed if the motion has no period, and samples per excitation cycle.
+LAST, SAMPLES_PER_CYCLE = 0.25, 1024
 
 
-def spectra_of_end(run: Run, period: int, last: float, samples_per_cycle: int) -> dict[str, AmplitudeSpectrum]:
+def spectra_of_end(run: Run, period: int) -> dict[str, AmplitudeSpectrum]:
     """Spectra of the velocities over the last period of a run, or over its last part if there is no period.
 
     period : excitation cycles; 0 for none
-    last : share of the run, for motions without a period
     """
-    duration = period / run.conveyor.frequency if period else last * run.duration
-    count = round(samples_per_cycle * run.conveyor.frequency * duration)
+    duration = period / run.conveyor.frequency if period else LAST * run.duration
+    count = round(SAMPLES_PER_CYCLE * run.conveyor.frequency * duration)
     motion = run.sample(run.duration - duration + np.arange(count) * duration / count)
     return {name: (harmonic_spectrum if period else windowed_spectrum)(motion[name], duration) for name in SIGNALS}
 
@@ -35,7 +36,7 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     spectra = [
         (row, name, spectrum)
         for row, (run, period) in enumerate(zip(runs, states.period, strict=True))
-        for name, spectrum in spectra_of_end(run, period, settings["last"], settings["samples_per_cycle"]).items()
+        for name, spectrum in spectra_of_end(run, period).items()
     ]
     lengths = [len(spectrum.frequency) for _, _, spectrum in spectra]
     rows = np.repeat([row for row, _, _ in spectra], lengths)

@@ -18,6 +18,7 @@ from pipeline import fields, grid
 
 FORGOTTEN = 200  # excitation cycles before the first sample, after which the transient has decayed
 RUN_FAILED = "a run failed"
+LENGTHS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of tracks, in units of transit.length: shorter and longer than the user's
 OF_EACH_REGIME = 2  # amplitudes in the table of track lengths
 TABLES = {
     "drift": (
@@ -103,7 +104,7 @@ def drift_table(amplitudes: np.ndarray, settings: dict, **options) -> pd.DataFra
 
 def lengths_table(regimes: pd.DataFrame, drifts: pd.DataFrame, settings: dict, **options) -> pd.DataFrame:
     """The table of track lengths, at a few amplitudes with coexisting motions and a few in chaos."""
-    factors = np.array(settings["lengths"])
+    factors = np.array(LENGTHS)
     track = {"lengths": factors * settings["length"], "longest": factors * settings["longest"]}
     deviations = NormalDist().inv_cdf(PROBABILITIES[-1])
     tables = []

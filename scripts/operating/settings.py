@@ -15,9 +15,7 @@ from ..pipeline.settings import (
     Seed,
     Tolerance,
     Velocity,
-    check_ascending,
     interval,
-    many,
     mapping,
     number,
     span,
@@ -67,9 +65,6 @@ class Drift(TypedDict):
     amplitudes: whole("largest number of amplitudes", 1, 10**4)
     runs: whole("initial conditions per amplitude", 4, 10**5)
     cycles: whole("excitation cycles of each run", 64, 10**6, "excitation cycles")
-    lengths: many(
-        number("length of a track", "transit.length", gt=0, le=1e3), "lengths of tracks", check=check_ascending
-    )
 
 
 class Advice(TypedDict):

@@ -32,7 +32,6 @@ class Estimate(Followed):
     epsilon: Epsilon
     output: word("compared state variable", "x", "vx", "z", "vz")
     last: number("share of the run that is averaged", "of the duration", gt=0, lt=1)
-    samples: whole("samples in this share", 2, 10**8)
 
 
 class SeedOrbit(TypedDict):
@@ -73,10 +72,6 @@ class Attractors(TypedDict):
     tolerance: NotRequired[Tolerance]
 
 
-class Lyapunov(TypedDict):
-    tolerance: NotRequired[Tolerance]
-
-
 SECTIONS = {
     "estimates": Annotated[
         dict[Name, Estimate], Field(description="Lyapunov exponents by finite differences (Eq. 23)")
@@ -84,8 +79,14 @@ SECTIONS = {
     "orbits": Annotated[Orbits, Field(description="periodic orbits of the vertical motion")],
     "certificates": Annotated[Certificates, Field(description="proofs of orbits, bifurcations and chaos")],
     "attractors": Annotated[Attractors, Field(description="stroboscopic states over the amplitude")],
-    "lyapunov": Annotated[Lyapunov, Field(description="Lyapunov exponents of the attractors")],
 }
+
+
+SPECTRUM_TOLERANCE = 1e-12  # of Lyapunov exponents: λ1 + λ2 is checked to 1e-8
+
+
+def spectrum_settings(config: dict) -> dict:
+    return with_model(config, "attractors", solver=FOLLOWED, normal=True) | {"tolerance": SPECTRUM_TOLERANCE}
 
 
 def certificates_settings(config: dict) -> dict:
@@ -106,6 +107,6 @@ TABLE_SETTINGS = {
         certificates_settings,
     ),
     "attractors/strobes": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
-    "lyapunov/spectrum": lambda config: with_model(config, "attractors", "lyapunov", solver=FOLLOWED, normal=True),
+    "lyapunov/spectrum": spectrum_settings,
     "lyapunov/witnesses": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
 }

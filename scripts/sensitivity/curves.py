@@ -63,6 +63,8 @@ ENDS = {
     CurveEnd.LOST: "no orbit beyond",
     CurveEnd.HALVED: "the orbit has half the period here",
 }
+LIMITS = (0.1, 5.0)  # a_z/g, within which curves are followed
+STEP = 0.1  # longest step in x, y, log of a_z/g and log of the parameter
 STEEPEST = 0.49 * np.pi  # rad, largest angle of throw of a curve
 
 
@@ -84,7 +86,7 @@ def angle_curve(point: BifurcationPoint, angle: float, settings: dict) -> Bifurc
     """The curve over the angle of throw (rad), on which Γ is constant, so that â is proportional to 1/sin φ."""
     reach = np.log(settings["factors"]["angle"])
     highest = min(reach, np.log(STEEPEST / angle))
-    parts = np.linspace(-reach, highest, 2 * int(np.ceil(reach / settings["step"])) + 1)
+    parts = np.linspace(-reach, highest, 2 * int(np.ceil(reach / STEP)) + 1)
     count = len(parts)
     ends = CurveEnd.LIMIT, CurveEnd.LIMIT
     return BifurcationCurve([point] * count, parts, np.full(count, np.nan), np.zeros(count, np.int64), [], ends)
@@ -96,10 +98,10 @@ def follow_curve(parameters: np.ndarray, point: BifurcationPoint, parameter: str
         return angle_curve(point, parameters["angle"], settings)
     path = POWERS[parameter](point.groups.exponent)
     reach = np.log(settings["factors"][parameter])
-    limits = tuple(settings["amplitude"]), (-reach, reach)
+    limits = LIMITS, (-reach, reach)
     if point.kind == GRAZING:
-        return follow_grazing_curve(point, path, *limits, step=0.5 * settings["step"])
-    return follow_bifurcation_curve(point, path, *limits, longest_step=settings["step"], most=settings["points"])
+        return follow_grazing_curve(point, path, *limits, step=0.5 * STEP)
+    return follow_bifurcation_curve(point, path, *limits, longest_step=STEP, most=settings["points"])
 
 
 def curve_rows(

@@ -68,6 +68,7 @@ TABLES = {
 # Groups with an influence on bifurcations, and on points of basin boundaries.
 BIFURCATION_GROUPS, BOUNDARY_GROUPS = ("damping", "stiffness", "exponent"), GROUP_NAMES[:-1]
 INITIAL_CONDITION = ("z0", "vz0")
+REST = (0.0, 0.0)  # m, m/s: the initial condition of Fig. 3, whose critical amplitude is differentiated
 # The tension mode, which is not a number, and parameters of the motion along the track.
 EXCLUDED = ("tension", "phase_shift", "static_friction")
 # A change of state is located to this part of the amplitude or of the unit of length. It moves less than MOVE when a
@@ -287,7 +288,7 @@ def boundary_points(critical: pd.DataFrame, settings: dict) -> Iterator[Critical
     if edges.empty:
         return
     rest = parameters.copy()
-    rest["z0"], rest["vz0"] = settings["rest"]["z0"], settings["rest"]["vz0"]
+    rest["z0"], rest["vz0"] = REST
     # The amplitude whose critical height is closest to rest is the initial guess.
     rest = replace_parameters(rest, acceleration=edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest["z0"])))])
     yield differentiate_boundary("critical_amplitude", rest, "acceleration", REACH["acceleration"])

@@ -16,6 +16,7 @@ from conveyor import (
 )
 from pipeline import fields
 
+LONGEST_PERIOD = 1  # excitation cycles, of the folds, doublings and grazings; longer orbits have too many to show
 # Largest relative difference of the amplitudes of one bifurcation in two tables, or in a table and solved again.
 SAME = 1e-6
 COLUMNS = (
@@ -53,12 +54,12 @@ def solve_again(parameters: np.ndarray, row: pd.Series) -> BifurcationPoint | No
 def select_bifurcations(
     parameters: np.ndarray, bifurcations: pd.DataFrame, cascade: pd.DataFrame, settings: dict, doublings: int
 ) -> list[Selected]:
-    """Folds, period doublings and grazings up to a period, by amplitude, then the first doublings of the cascade.
+    """Folds, period doublings and grazings up to LONGEST_PERIOD, by amplitude, then the first doublings of the cascade.
 
-    settings : the section `sensitivity` of the config, with `longest_period`, and `most`, the number of each kind
+    settings : with `most`, the number of each kind
     """
     first = cascade.sort_values("number", kind="stable").head(doublings).assign(kind="period_doubling")
-    others = bifurcations[bifurcations.period <= settings["longest_period"]].sort_values("acceleration", kind="stable")
+    others = bifurcations[bifurcations.period <= LONGEST_PERIOD].sort_values("acceleration", kind="stable")
     repeated = [
         ((first.period == row.period) & (abs(first.acceleration / row.acceleration - 1.0) < SAME)).any()
         and row.kind == "period_doubling"

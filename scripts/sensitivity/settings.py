@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import Field
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import HeightNumber, Name, Period, Velocity, interval, mapping, number, whole
+from ..pipeline.settings import Name, mapping, number, whole
 from ..pipeline.table_settings import model_of
 
 Factor = number("factor by which a parameter is increased and decreased", gt=1, le=1e3)
@@ -14,16 +14,12 @@ Factor = number("factor by which a parameter is increased and decreased", gt=1, 
 class Curves(TypedDict):
     doublings: whole("doublings that are followed in two parameters", 0, 12)
     factors: mapping("range of each parameter", dict.fromkeys(("damping", "stiffness", "frequency", "angle"), Factor))
-    amplitude: interval(number("a_z/g", gt=0, le=1e3), "range of a_z/g")
-    step: number("longest step in x, y, log a_z/g and the logarithm of the parameter", gt=0, le=1)
     points: whole("largest number of points on each side of a curve", 10, 10**5)
 
 
 class Sensitivity(TypedDict):
-    longest_period: Period
     most: whole("number of bifurcations of each kind, those at the lowest amplitudes", 1, 10**4)
     doublings: whole("doublings whose derivatives are extrapolated", 1, 12)
-    rest: mapping("initial condition of Fig. 3", {"z0": HeightNumber, "vz0": Velocity})
     critical: Annotated[Name, Field(description="entry of `critical` over the amplitude alone")]
     heights: whole("number of amplitudes of this entry", 1, 1000)
     curves: Annotated[Curves, Field(description="bifurcation curves in two parameters")]
@@ -40,7 +36,7 @@ def derivatives_settings(config: dict) -> dict:
 
 
 def curves_settings(config: dict) -> dict:
-    own = {key: config["sensitivity"][key] for key in ("longest_period", "most", "curves")}
+    own = {key: config["sensitivity"][key] for key in ("most", "curves")}
     return {**own, "model": model_of(config, "orbits", normal=True)}
 
 

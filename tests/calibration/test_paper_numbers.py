@@ -92,7 +92,6 @@ def test_critical_heights_and_their_fit_agree_with_the_claims(direct):
         "axes": {"acceleration": [29.0, 32.0, 35.0, 38.0, 40.0, 44.0, 47.0]},
         "model": MODEL_WITHOUT,
         "scan": {"start": 0.0, "stop": 0.5e-3, "num": 11},
-        "resolution": 1e-8,
         "settling": 1000,
         "mean_settling": 375,
         "method": "event",

@@ -153,7 +153,7 @@ def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
     columns = {"acceleration": [40.0], "z0": [1e-4], "is_critical": [True], "status": "ok"}
     columns |= {"state_below": "first", "state_above": "second"}
     converged, euler = (pd.DataFrame(columns | {"acceleration": [a]}) for a in (30.0, 40.0))
-    converged.attrs = {"scan": {"start": 0.0, "stop": 5e-4, "num": 9}, "resolution": 1.0e-9}
+    converged.attrs = {"scan": {"start": 0.0, "stop": 5e-4, "num": 9}}
     template = template_of("fig10")
     tables = {"converged": converged, "euler": euler, "fit": converged}
     assert "at no common amplitude" in captions.caption(template, "fig10", tables, {})
@@ -243,7 +243,7 @@ def test_derivatives_that_do_not_pass_the_check_are_named():
     row |= {"status": "ok", "acceleration": 40.0}
     wrong = row | {"derivative": 1.0, "elasticity": 1.0, "status": "differences disagree"}
     derivatives = pd.DataFrame([row, wrong])
-    derivatives.attrs = {"longest_period": 1, "most": 6}
+    derivatives.attrs = {"most": 6}
     curves = pd.DataFrame({"parameter": [], "kind": [], "begin": [], "meeting": [], "status": [], "damping_group": []})
     curves.attrs = {"model": {"exponent": 1.5}}
     tables = {"continued": curves, "meetings": curves, "bifurcations": pd.DataFrame({"period": [], "kind": []})}

@@ -8,7 +8,6 @@ SETTINGS = {
     "axes": {"acceleration": [30.0, 40.0]},
     "model": {"vz0": 0.0},
     "scan": {"start": 0.0, "stop": 4e-4, "num": 9},
-    "resolution": 1e-9,
     "settling": 2000,
     "mean_settling": 400,
 }

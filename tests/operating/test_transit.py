@@ -195,9 +195,10 @@ def test_amplitudes_of_a_regime():
     assert drift.spaced(np.empty(0), 8).tolist() == []
 
 
-def test_drift_predicts_the_spread_and_tracks_with_coexisting_motions_keep_theirs():
+def test_drift_predicts_the_spread_and_tracks_with_coexisting_motions_keep_theirs(monkeypatch):
+    monkeypatch.setattr(drift, "LENGTHS", (0.25, 1.0))
     settings = TABLES["operating/drift"](read_config()) | {"starts": 64, "runs": 16, "cycles": 2048, "amplitudes": 1}
-    found = drift.make(REGIMES, settings | {"lengths": [0.25, 1.0], "longest": 10.0})
+    found = drift.make(REGIMES, settings | {"longest": 10.0})
     (row,) = found["drift"].to_dict("records")
     assert row["status"] == "ok"
     assert row["velocity"] == pytest.approx(0.5 * (row["velocity_1"] + row["velocity_2"]), rel=1e-9)

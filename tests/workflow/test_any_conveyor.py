@@ -14,7 +14,7 @@ MOST = 2  # builds at a time
 FEW = {"acceleration": {"num": 6}}
 PHASE_AND_HEIGHT = {"psi0": {"num": 5}, "z0": {"num": 6}}
 PHASE_AND_VELOCITY = {"psi0": {"num": 5}, "vz0": {"num": 6}}
-PORTRAIT = {"axes": {"acceleration": {"num": 2}}, "begin": 20.0, "samples": 3000}
+PORTRAIT = {"axes": {"acceleration": {"num": 2}}, "samples": 3000}
 COARSE = {
     "prefix": "coarse",
     "solver": {"settling": 1000},
@@ -39,7 +39,7 @@ COARSE = {
     "sensitivity": {"most": 1, "doublings": 1, "heights": 1, "curves": {"doublings": 1, "points": 10}},
     "operating": FEW | {"resolution": 10.0, "starts": 16},
     "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},
-    "drift": {"amplitudes": 1, "runs": 4, "cycles": 256, "lengths": [0.5, 1.0]},
+    "drift": {"amplitudes": 1, "runs": 4, "cycles": 256},
     "track": {"inclination": {"num": 2}, "phase_shift": {"num": 3}, "starts": 4},
 }
 

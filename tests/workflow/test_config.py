@@ -106,7 +106,7 @@ WRONG = [
     ({"sweeps": {"heights": {"step": 0.1}}}, "sweeps.heights.step = 0.1 s is too long for 50 Hz"),
     ({"sweeps": {"heights": {"step": 1.0e-12}}}, "sweeps.heights.step = 1e-12 s makes 1e+12 steps"),
     ({"solver": {"step": 0.1}}, "solver.step (of sweeps.amplitudes) = 0.1 s is too long"),
-    ({"dimensions": {"portrait_euler": {"samples": 200000, "step": 3.0e-6}}}, "dimensions.portrait_euler.step = 3e-06"),
+    ({"dimensions": {"portrait_euler": {"step": 3.0e-6}}}, "dimensions.portrait_euler.step = 3e-06"),
     ({"critical": {"edge": {"axes": {"z0": [0.0]}}}}, "critical.edge.axes.z0 is the scanned parameter"),
     ({"critical": {"edge": {"model": {"z0": 0.0}}}}, "critical.edge.model.z0 is the scanned parameter"),
     (
@@ -144,8 +144,19 @@ WRONG = [
     ),
     # accepted by earlier versions, and failing in a job
     ({"orbits": {"limits": [20, 40]}}, "orbits.limits = [20.0, 40.0] m/s² must hold the amplitude of orbits.seeds[1]"),
-    ({"dimensions": {"portrait": {"estimator": "paper"}}}, "dimensions.portrait lacks octaves"),
-    ({"dimensions": {"portrait": {"estimator": "correlation"}}}, "dimensions.portrait lacks theiler"),
+    (
+        {"dimensions": {"portrait": {"method": "euler"}}},
+        "dimensions.portrait.estimator = 'box' follows the settled",
+    ),
+    (
+        {"dimensions": {"portrait": {"theiler": 20}}},
+        "dimensions.portrait.theiler is no setting any more; remove it (its value is a constant in scripts/dimensions/",
+    ),
+    (
+        {"dimensions": {"portrait": {"begin": 9.0}}},
+        "dimensions.portrait.begin is no setting any more; give solver.",
+    ),
+    ({"lyapunov": {"tolerance": 1e-9}}, "(its value is a constant in scripts/orbits/settings.py)"),
     ({"critical": {"edge": {"scan": {"start": 1.0e-3}}}}, "'stop': 0.0005} is reversed: start is above stop"),
     (
         {"critical": {"edge": {"scan": [0.0, 2.0e-4, 1.0e-4]}}},
@@ -156,10 +167,6 @@ WRONG = [
     (
         {"critical": {"edge": {"scan": [0.0, "conveyor"]}}},
         "critical.edge.scan[1] = 'conveyor' should be a valid number",
-    ),
-    (
-        {"critical": {"edge": {"resolution": 1.0e-15, "scan": [0.0, 9.0]}}},
-        "critical.edge.resolution = 1e-15 m is",
     ),
     (
         {"signals": {"states": {"times": {"stop": 2.0}}}},
@@ -343,7 +350,7 @@ def test_names_and_methods_that_do_not_clash_are_valid(overlay):
 
 
 def test_methods_make_a_table_each():
-    portrait = {**CONFIG["dimensions"]["portrait"], "samples": 100, "methods": ["event", "euler"]}
+    portrait = {"axes": {"acceleration": [40.0]}, "estimator": "paper", "methods": ["event", "euler"]}
     config = merged(CONFIG, {"dimensions": {"mine": portrait}})
     assert problems(config) == []
     assert by_methods(config)["dimensions"]["mine_euler"]["method"] == "euler"

@@ -2,6 +2,8 @@
 
 import os
 import resource
+import subprocess
+import sys
 
 import pandas as pd
 import pytest
@@ -252,5 +254,19 @@ def test_a_run_of_another_conveyor_says_first_what_was_scaled_and_dropped(projec
     run = project.called("--dry-run", "figures/fast/operating.pdf", "--configfile", str(file))
     (notice,) = [line for line in run.stdout.splitlines() if line.startswith("fast is another conveyor")]
     assert "amplitudes × 1, heights × 0.25, velocities × 0.5, times × 0.5" in notice
-    assert "Dropped: the paper's claims" in notice
+    assert "Dropped: the paper's claims" in notice and "differences between parts" in notice
     assert run.stdout.index(notice) < run.stdout.index("Building DAG")
+
+
+def test_overlays_can_be_checked_without_snakemake(tmp_path):
+    file, check = tmp_path / "mine.yaml", [sys.executable, "-m", "workflow.config"]
+    for text, expected in (
+        ("prefix: mine\nmodel: {damping: 0.2\n", f"{file}:3: is not YAML: "),
+        ("model: {damping: -1}", "model.damping = -1 should be at least 0"),
+    ):
+        file.write_text(text)
+        run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
+        assert run.returncode == 1 and expected in run.stderr
+    file.write_text("model: {damping: 0.2}")
+    run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 0 and "valid" in run.stdout

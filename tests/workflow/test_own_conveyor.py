@@ -312,7 +312,7 @@ def test_tables_made_from_the_claims_of_the_paper_say_so(built):
 
 
 def test_a_forgotten_prefix_is_named_first():
-    with pytest.raises(ConfigError, match=r"be used:\nmodel is not the paper's, and there is no prefix"):
+    with pytest.raises(ConfigError, match=r"be used:\nmodel.frequency = 60.0 Hz is .* give it a prefix"):
         load_config(DEFAULT_FILES, [], {"model": {"frequency": 60.0}})
     for fault in ({"model": {"frequency": -60.0}}, {"model": {"friction": 0.3}, "transit": {"longest": 0.01}}):
         with pytest.raises(ConfigError, match=r"be used:\n(model.frequency|transit.longest)"):

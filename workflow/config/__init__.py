@@ -4,7 +4,7 @@ import itertools
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from .checks import problems
 from .entries import by_methods, with_tighter
@@ -14,12 +14,6 @@ from .model import MODEL
 from .own_conveyor import describe_scaling, is_own_conveyor, names_conveyor, scale_config
 
 __all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
-
-
-# The reason if settings of the paper do not fit another model, but would be scaled to it with a prefix.
-NO_PREFIX = (
-    "model is not the paper's, and there is no prefix; for a conveyor of your own, give one, such as prefix: mine"
-)
 
 
 class Loaded(NamedTuple):
@@ -84,19 +78,9 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
         whole["uncertainty"] |= {"claims": [name for name in checked if name in whole["claims"]]}
     name_measurements(whole, overlay_files, overlays)
     if errors := problems(whole, paper):
-        lacks_prefix = not whole["prefix"] and fits(default_files, overlay_files, {**config, "prefix": "mine"})
-        raise ConfigError([NO_PREFIX, *errors] if lacks_prefix else errors)
+        raise ConfigError(errors)
     for section, key in MEASURED_FILES:
         if key not in whole[section]:
             whole["figures_on_request"].pop(section, None)
     loaded = with_tighter(by_methods(canonical(whole)))
     return Loaded(loaded, paper, own_conveyor, describe_scaling(paper, loaded) if own_conveyor else "")
-
-
-def fits(*arguments: Any) -> bool:
-    """Whether `load_config` accepts these arguments."""
-    try:
-        load_config(*arguments)
-    except ConfigError:
-        return False
-    return True

@@ -3,7 +3,6 @@
 Each check takes a config of the right types, and the default config.
 """
 
-import math
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
@@ -46,6 +45,11 @@ STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cy
 def prefix(config: dict, defaults: dict) -> Iterator[str]:
     if config["prefix"].lower() in RESERVED:  # macOS does not distinguish Logs from logs
         yield f"prefix = {config['prefix']!r} is a folder of the default results; give another name"
+    if not config["prefix"] and config["model"]["frequency"] != defaults["model"]["frequency"]:
+        yield (
+            f"model.frequency = {config['model']['frequency']!r} Hz is another conveyor, for which axes and times must "
+            "be scaled; give it a prefix, such as prefix: mine"
+        )
 
 
 def methods(config: dict, defaults: dict) -> Iterator[str]:
@@ -129,10 +133,7 @@ def runs_with_step(config: dict, defaults: dict) -> Iterator[tuple[str, float, f
             for variant in variants(name, entry).values():
                 filled = fill_defaults(config, section, variant)
                 for frequency in values_of(filled, "frequency") if "step" in filled else ():
-                    duration = filled["duration"]
-                    if section == "dimensions":
-                        duration = entry["begin"] + entry["interval"] * (entry["samples"] - 1) / frequency
-                    yield key(f"{section}.{name}", entry), filled["step"], duration, frequency
+                    yield key(f"{section}.{name}", entry), filled["step"], filled["duration"], frequency
     if is_own_conveyor(defaults, config):
         return  # the comparisons of methods below are the paper's
     frequency = config["model"]["frequency"]
@@ -180,10 +181,6 @@ def critical(config: dict, defaults: dict) -> Iterator[str]:
         for part in ("axes", "model"):
             if "z0" in entry.get(part, ()):
                 yield f"critical.{name}.{part}.z0 is the scanned parameter; give its values as critical.{name}.scan"
-        spacing = math.ulp(max(map(abs, ends(entry["scan"]))))
-        if entry["resolution"] <= 2.0 * spacing:
-            key = f"critical.{name}.resolution = {entry['resolution']!r} m"
-            yield f"{key} is below the spacing of floating-point numbers; take at least {4.0 * spacing:g} m"
     name, single = config["sensitivity"]["critical"], by_methods(config)
     entry = resolve(single, "critical", name) if name in single["critical"] else None
     if entry and (set(entry["axes"]) != {"acceleration"} or entry["method"] != "event"):
@@ -223,12 +220,12 @@ def orbits(config: dict, defaults: dict) -> Iterator[str]:
 
 def dimensions(config: dict, defaults: dict) -> Iterator[str]:
     for name, entry in config["dimensions"].items():
-        needed = {"paper": "octaves", "correlation": "theiler"}.get(entry["estimator"])
-        if needed and needed not in entry:
-            yield f"dimensions.{name} lacks {needed}, which the estimator {entry['estimator']} needs"
-        if entry.get("theiler", 0) >= entry["samples"]:
-            key = f"dimensions.{name}.theiler = {entry['theiler']}"
-            yield f"{key} leaves no pair of {entry['samples']} samples; give less"
+        methods = {variant.get("method", config["solver"]["method"]) for variant in variants(name, entry).values()}
+        if entry["estimator"] != "paper" and methods != {"event"}:
+            yield (
+                f"dimensions.{name}.estimator = {entry['estimator']!r} follows the settled motion, which needs the "
+                "method event; give that method, or the estimator paper"
+            )
 
 
 def unknown_references(config: dict, defaults: dict) -> Iterator[str]:

@@ -58,6 +58,8 @@ def fill_defaults(config: dict, section: str, entry: dict) -> dict:
     filled = {**solver, **entry}
     if section in SETTLING:
         filled |= {key: config["solver"][key] for key in ("settling", "mean_settling")}
+    elif entry.get("estimator", "paper") != "paper":
+        filled["settling"] = config["solver"]["settling"]
     filled["model"] = {**config["model"], **entry.get("model", {})}
     for axis in entry.get("axes", ()):
         filled["model"].pop(axis, None)

@@ -11,6 +11,7 @@ from typing import Any
 import yaml
 from pydantic import ValidationError
 
+from .entries import ENTRIES
 from .model import MODEL
 from .schema import options_of, schema_at, unit_of
 
@@ -22,72 +23,48 @@ SHORT.maxstring = SHORT.maxother = 60
 format_value = SHORT.repr
 # A number that YAML 1.1 reads as text, such as 1e-4.
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
-# Settings of earlier versions that nobody needed to change, and the modules of scripts/ in which they are constants.
+# Settings of earlier versions that nobody needed to change. The keys of each section, by the module of scripts/ in
+# which they are constants.
 CONSTANTS = {
-    **dict.fromkeys(
-        (f"precision.{key}" for key in ("sample_interval", "tolerances", "steps", "peers", "seconds")),
-        "accuracy/precision",
-    ),
-    "operating.same_velocity": "operating/regimes",
-    "drift.forgotten": "operating/drift",
-    "drive.drawn": "operating/drive",
-    "drive.settled": "operating/drive",
-    **dict.fromkeys(
-        (
-            f"calibration.{key}"
-            for key in (
-                *("parts", "first", "points", "rounds", "enough", "effective", "samples", "checked", "checked_parts"),
-                *("replicates", "amplitudes", "predicted", "predicted_parts"),
-            )
-        ),
-        "calibration/effort",
-    ),
-    "calibration.confidence": "calibration/inference",
-    "calibration.outliers": "calibration/predicted",
-    "calibration.decisive": "calibration/model_check",
-    "calibration.significance": "calibration/model_check",
-    "calibration.beyond": "calibration/prediction",
-    "calibration_study": "calibration/study",
-    "identification.contacts": "calibration/edges",
-    "identification.heights": "calibration/edges",
-    "identification.edges": "calibration/edges",
-    "identification.inside": "calibration/paper_numbers",
-    "identification.evidence": "calibration/paper_posterior",
-    "identification.search": "calibration/paper_posterior",
-    "sharing.seconds": "workflow/config/sharing",
-    "sharing.megabytes": "workflow/config/sharing",
-    "witnesses": "orbits/witnesses",
-    "lyapunov.cycles": "orbits/exponents",
-    "lyapunov.blocks": "orbits/exponents",
-    "orbits.cycles": "orbits/seeds",
-    "operating.followed": "operating/shares",
-    "operating.cycles": "operating/shares",
-    "throws.followed": "operating/throws",
-    "track.cycles": "operating/track",
-    "drive.seeds": "operating/drive",
-    "drive.checked": "operating/drive",
-    "drive.recommended": "operating/drive",
-    "precision.reference": "accuracy/reference_check",
-    "stability_estimates": "accuracy/stability_estimates",
-    "rigid_part": "accuracy/rigid_part",
-    "theory": "accuracy/theory",
-    **dict.fromkeys(
-        (
-            f"map_check.{key}"
-            for key in ("boundary", "seed", "tolerance", "close", "repeats", "significant", "accepted")
-        ),
-        "accuracy/map_check",
-    ),
-    **dict.fromkeys(
-        (
-            f"certificates.{key}"
-            for key in (
-                *("longest_period", "bits", "order", "tolerance", "closeness", "half_width", "half_arc"),
-                *(f"chaos.{key}" for key in ("size", "ratio", "longest", "bits", "order", "tolerance")),
-            )
-        ),
-        "orbits/certified",
-    ),
+    "accuracy/map_check": {"map_check": "boundary seed tolerance close repeats significant accepted"},
+    "accuracy/precision": {"precision": "sample_interval tolerances steps peers seconds"},
+    "accuracy/reference_check": {"precision": "reference"},
+    "accuracy/rigid_part": {"": "rigid_part"},
+    "accuracy/stability_estimates": {"": "stability_estimates"},
+    "accuracy/theory": {"": "theory"},
+    "calibration/edges": {"identification": "contacts heights edges"},
+    "calibration/effort": {
+        "calibration": "parts first points rounds enough effective "
+        "samples checked checked_parts replicates amplitudes predicted predicted_parts",
+    },
+    "calibration/inference": {"calibration": "confidence"},
+    "calibration/model_check": {"calibration": "decisive significance"},
+    "calibration/paper_numbers": {"identification": "inside"},
+    "calibration/paper_posterior": {"identification": "evidence search"},
+    "calibration/predicted": {"calibration": "outliers"},
+    "calibration/prediction": {"calibration": "beyond"},
+    "calibration/study": {"": "calibration_study"},
+    "dimensions/portraits": {"dimensions.NAME": "interval octaves theiler largest_error"},
+    "motion/critical": {"critical.NAME": "resolution"},
+    "motion/spectra": {"spectra.NAME": "last samples_per_cycle"},
+    "operating/drift": {"drift": "forgotten lengths"},
+    "operating/drive": {"drive": "drawn settled seeds checked recommended"},
+    "operating/regimes": {"operating": "same_velocity"},
+    "operating/shares": {"operating": "followed cycles"},
+    "operating/throws": {"throws": "followed"},
+    "operating/track": {"track": "cycles"},
+    "orbits/certified": {
+        "certificates": "longest_period bits order tolerance closeness half_width half_arc",
+        "certificates.chaos": "size ratio longest bits order tolerance",
+    },
+    "orbits/estimates": {"estimates.NAME": "samples"},
+    "orbits/seeds": {"orbits": "cycles"},
+    "orbits/settings": {"": "lyapunov"},
+    "orbits/witnesses": {"": "witnesses"},
+    "sensitivity/curves": {"sensitivity.curves": "amplitude step"},
+    "sensitivity/derivatives": {"sensitivity": "rest"},
+    "sensitivity/selection": {"sensitivity": "longest_period"},
+    "workflow/config/sharing": {"sharing": "seconds megabytes"},
 }
 # Sections and settings of earlier versions that nothing uses any more.
 GONE = (
@@ -95,7 +72,10 @@ GONE = (
     *(f"stability.{key}" for key in ("hard", "rivals", "stick", "chatter_steps")),
 )
 # Settings with a new name.
-RENAMED = {"identification.bounds": "identification.ranges, with damping for loss and stiffness for group"}
+RENAMED = {
+    "dimensions.NAME.begin": "solver.settling, in excitation cycles",
+    "identification.bounds": "identification.ranges, with damping for loss and stiffness for group",
+}
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
@@ -122,6 +102,22 @@ def format_key(path: Iterable[str | int]) -> str:
     return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in names).lstrip(".") or "config"
 
 
+def fault_of_removed(path: list[str | int]) -> str:
+    """What to do about a setting of an earlier version; empty for keys that never were settings."""
+    # An entry has a name of the user's choice.
+    key = format_key([path[0], "NAME", *path[2:]] if path[0] in ENTRIES else path)
+    if key in GONE:
+        return ", because what used it is gone; remove it"
+    if key in RENAMED:
+        return f"; give {RENAMED[key]}"
+    section, _, name = key.rpartition(".")
+    module = next((module for module, keys in CONSTANTS.items() if name in keys.get(section, "").split()), None)
+    if module is None:
+        return ""
+    file = module if module.startswith("workflow/") else f"scripts/{module}"
+    return f"; remove it (its value is a constant in {file}.py)"
+
+
 def explain(error: dict) -> str:
     """One line for an error of pydantic."""
     # Without the names of forms ("(span)"), and without "[key]" behind a name of the user's choice.
@@ -140,13 +136,8 @@ def explain(error: dict) -> str:
         return f"{above} has the unknown name {format_value(value)}; {remedy}"
     if kind == "missing":
         return f"{key} is missing"
-    if kind == "extra_forbidden" and key in GONE:
-        return f"{key} is no setting any more, because what used it is gone; remove it"
-    if kind == "extra_forbidden" and key in RENAMED:
-        return f"{key} is no setting any more; give {RENAMED[key]}"
-    if kind == "extra_forbidden" and key in CONSTANTS:
-        folder = "" if CONSTANTS[key].startswith("workflow/") else "scripts/"
-        return f"{key} is no setting any more; remove it (its value is a constant in {folder}{CONSTANTS[key]}.py)"
+    if kind == "extra_forbidden" and (fault := fault_of_removed(path)):
+        return f"{key} is no setting any more{fault}"
     if kind == "extra_forbidden" and path[0] in ("figures", "figures_on_request") and path[2:] == ["title"]:
         return f"{key} is no setting any more; remove it (the title is in scripts/figures/plots/{path[1]}.rst)"
     if kind == "extra_forbidden":

@@ -29,7 +29,7 @@ MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_stat
 DIGITS, EXACT = (
     4,
     17,
-)  # of scaled amplitudes, heights and velocities, which appear on axes and in titles, and of other numbers
+)  # of scaled amplitudes, heights and velocities, which stand on axes and in titles; of other numbers
 ROUNDED = ("m/s²", "m", "m/s", "m²/s²")
 STEPS = 4000  # the steps per excitation cycle are a multiple of this number, so that samples lie on steps
 
@@ -173,11 +173,13 @@ def describe_scaling(paper: dict, config: dict) -> str:
         for name, entry in paper[section].items()
         if "paper_only" in entry and name not in config[section]
     ]
+    differ = (value for name, value in config["parts"].items() if name != "seed")
     dropped = [
         *([] if config["claims"] else ["the paper's claims"]),
         *(["figures " + ", ".join(figures)] if figures else []),
         "marks of the paper in figures",
         "tables of the paper's method that your config does not name",
+        *([] if any(differ) else ["differences between parts"]),
     ]
     return (
         f"{config['prefix']} is another conveyor than the paper's. Scaled, except for values that your config gives "

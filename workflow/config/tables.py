@@ -1,7 +1,8 @@
 """The tables of a config, and the settings of each table: the part of the config that its script needs.
 
 The rule that makes a table passes its settings to the script, which stores them in the table. A rule that reads the
-table expects the same settings, so a table that was made from other settings is refused.
+table expects the same settings, so a table that was made from other settings is refused. Snakemake would notice other
+settings only as long as it has its own records, which neither an archive nor a copy of the results contains.
 """
 
 import itertools

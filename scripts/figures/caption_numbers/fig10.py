@@ -3,6 +3,7 @@
 import pandas as pd
 
 from figures.plots.fig10 import ends_of
+from motion.critical import RESOLUTION
 
 
 def format_change(least: float, most: float) -> str:
@@ -14,11 +15,13 @@ def format_change(least: float, most: float) -> str:
 
 
 def numbers(*, converged: pd.DataFrame, fit: pd.DataFrame | None = None, euler: pd.DataFrame | None = None) -> dict:
+    lowest, highest = ends_of(converged.attrs["scan"])
     found = {
         "found": converged.is_critical.any(),
         "fitted": fit is not None and len(fit) > 0,
         "returns": (~converged.is_critical & (converged.state_above == "first")).any(),
-        "highest": ends_of(converged.attrs["scan"])[1],
+        "highest": highest,
+        "resolution": RESOLUTION * (highest - lowest),
         "many": (converged.status != "ok").any(),
         "undecided": converged[
             (converged[["state_below", "state_above"]] == "undecided").any(axis=1)

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from pipeline.templates import format_number
+from sensitivity.selection import LONGEST_PERIOD
 
 SMALL_ELASTICITY = 1e-3  # below it, a relative error means nothing
 
@@ -16,7 +17,7 @@ def numbers(
     own = continued[continued.parameter == "angle"]
     first = continued[continued.kind == "fold"].begin.min()
     cusps = meetings[(meetings.begin == first) & (meetings.meeting == "cusp") & (meetings.parameter == "damping")]
-    short = bifurcations[bifurcations.period <= derivatives.attrs["longest_period"]]
+    short = bifurcations[bifurcations.period <= LONGEST_PERIOD]
     return {
         "many": (short.kind.value_counts() > derivatives.attrs["most"]).any(),
         "heights": list(map(format_number, right[right.kind == "critical_height"].acceleration.unique())),
