@@ -1,11 +1,11 @@
 """Speed of the solver compared with the paper's method, both compiled, both through `simulate`, in one thread.
 
-In each round, every case has a turn: several runs of the solver, several runs without reuse of steps, and one run of
-Euler, so that other load on the machine affects all of them. The reference is an independent integration by SciPy's
-DOP853 with events.
+Times are processor times of the thread, to which other load on the machine adds little. In each round, every case has
+a turn: several runs of the solver, several runs without reuse of steps, and one run of Euler, so that all of them run
+at the same clock frequency. The reference is an independent integration by SciPy's DOP853 with events.
 """
 
-from time import perf_counter
+from time import thread_time
 
 import numpy as np
 import pandas as pd
@@ -33,11 +33,11 @@ TABLES = {
         fields.count("evaluations", "derivatives of the contact force in a timed run"),
         fields.count("events", "events of a timed run"),
         fields.count("euler_steps", "steps of Euler in a timed run"),
-        fields.number("seconds", "s", "median wall time of the solver"),
-        fields.number("seconds_without", "s", "median wall time of the solver without reuse of steps"),
-        fields.number("euler_seconds", "s", "median wall time of Euler"),
-        fields.number("speed", "1", "wall time of Euler over wall time of the solver"),
-        fields.number("speed_without", "1", "wall time of Euler over wall time of the solver without reuse of steps"),
+        fields.number("seconds", "s", "median processor time of the solver"),
+        fields.number("seconds_without", "s", "median processor time of the solver without reuse of steps"),
+        fields.number("euler_seconds", "s", "median processor time of Euler"),
+        fields.number("speed", "1", "time of Euler over time of the solver"),
+        fields.number("speed_without", "1", "time of Euler over time of the solver without reuse of steps"),
         fields.count("repeats", "rounds of timed runs"),
     ),
 }
@@ -48,17 +48,17 @@ RUNS = 20
 
 
 def time_run(case: dict, duration: float, method: str, reuse: bool = True) -> tuple[float, Run]:
-    """Wall time (s) of a run with its mean velocity, and the run."""
+    """Processor time (s) of a run with its mean velocity, and the run."""
     conveyor, start = grid.conveyor_and_start(case["model"])
     accuracy = {"tolerance": case["tolerance"], "step": case["step"], "reuse": reuse}
-    begin = perf_counter()
+    begin = thread_time()
     run = simulate(conveyor, start, duration=duration, method=method, **accuracy)
     run.mean_velocity()
-    return perf_counter() - begin, run
+    return thread_time() - begin, run
 
 
 def measure_times(cases: list[dict], repeats: int, progress: str | None) -> np.ndarray:
-    """Median wall times (s) of the solver, of the solver without reuse of steps, and of Euler: shape (3, cases).
+    """Median processor times (s) of the solver, of the solver without reuse of steps, and of Euler: shape (3, cases).
 
     The first round, which compiles code, does not count.
     """

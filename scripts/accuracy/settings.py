@@ -177,7 +177,6 @@ TABLE_SETTINGS = {
     "results/stability_estimates": lambda config: {"model": model_of(config)},
     "results/scene_budget": itemgetter("scene_budget"),
     "results/budget_times": itemgetter("scene_budget"),
-    "results/rigid_part": lambda config: {},
     "results/theory": lambda config: {"model": model_of(config)},
     "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),

@@ -1,12 +1,14 @@
 """The budget of tables does not depend on threads."""
 
 import pandas as pd
+import pytest
 
-from accuracy import scene_budget
+from accuracy import scene_budget, theory
+from conveyor import Conveyor
 
 SETTINGS = {
     "axes": {"acceleration": [30.0, 40.0, 80.0], "z0": [1.0e-4, 3.0e-4]},
-    "model": {},
+    "model": {"stiffness": 1.0e5, "damping": 0.3, "exponent": 1.5},
     "duration": 0.1,
     "method": "event",
     "tolerance": 1.0e-8,
@@ -20,6 +22,16 @@ BUDGET = {
     "line": 0.005,
     "reasons": {},
 }
+
+
+@pytest.mark.parametrize("speed", [0.02, 0.5])
+@pytest.mark.parametrize("exponent", [1.0, 1.5])
+def test_a_practically_rigid_part_bounces_as_high_in_nearly_no_time(exponent, speed):
+    soft = {"exponent": exponent, "stiffness": 1e5, "damping": 0.5}
+    found, hard = (theory.simulate_impact(Conveyor(**model), speed) for model in (soft, scene_budget.harden(soft)))
+    assert 0.1 < found.restitution < 0.95
+    assert hard.restitution == pytest.approx(found.restitution, rel=1e-9)
+    assert hard.duration < 0.005 * found.duration
 
 
 ENTRIES = {"sweeps/some": SETTINGS, "sweeps/other": SETTINGS | {"duration": 0.2}, "sweeps/third": SETTINGS}

@@ -7,20 +7,9 @@ import pytest
 
 from accuracy import closed_forms, theory
 from conveyor import Conveyor
-from conveyor.methods.rigid_part_orbits import rigid_orbit
 from pipeline.rule_log import JobError
 
 MODEL = {"frequency": 50.0, "angle": 0.2, "gravity": 9.81, "mass": 0.7e-3}
-
-
-@pytest.mark.parametrize("restitution", [0.2, 0.8])
-def test_the_range_of_the_rigid_ball_is_that_of_the_library(restitution):
-    conveyor = Conveyor(frequency=50.0, angle=0.2)
-    orbit = rigid_orbit(conveyor, lambda speed: restitution)
-    scale = math.sin(conveyor.angle) / conveyor.gravity
-    assert closed_forms.rigid_range(restitution) == pytest.approx(
-        (orbit.fold * scale, orbit.doubling * scale), rel=1e-7
-    )
 
 
 def test_an_elastic_ball_has_the_range_of_the_approximate_map():

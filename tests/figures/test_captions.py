@@ -7,7 +7,6 @@ from jinja2 import UndefinedError
 from project import ROOT, read_config
 from prose import typed
 
-from accuracy.rigid_part import CONTACT, RIGID
 from figures import captions
 from figures.titles import split_title, title_of
 
@@ -102,31 +101,6 @@ def test_chaos_before_the_accumulation_is_mentioned():
     none = others | {"branches": orbits[:0], "bifurcations": pd.DataFrame({"kind": []})}
     empty = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **none)
     assert "No initial condition was found to lead to a stable orbit of up to 4 cycles" in empty
-
-
-def test_how_long_a_rigid_part_stays_in_the_first_state():
-    """One exception at 30 m/s² does not count; nor do other initial heights."""
-    rows = [
-        (model, "velocity", 0, amplitude, height, state if height == 0.0 else "second")
-        for model, states in (
-            (CONTACT, ("first", "first", "second", "second", "second")),
-            (RIGID, ("first", "second", "first", "first", "second")),
-        )
-        for height in (0.0, 5e-4)
-        for amplitude, state in zip((20.0, 30.0, 40.0, 50.0, 60.0), states, strict=True)
-    ]
-    rows += [(CONTACT, "fold", 1, 20.0, np.nan, None), (RIGID, "fold", 1, 22.0, np.nan, None)]
-    for number in (1, 2):
-        rows.append((CONTACT, "period doubling", number, 50.0 * number, np.nan, None))
-        rows.append((RIGID, "period doubling", number, 52.0, np.nan, None))
-    table = pd.DataFrame(rows, columns=["model", "kind", "number", "acceleration", "z0", "state"])
-    contact = pd.DataFrame()
-    contact.attrs["duration"] = 1.0
-    text = caption("rigid_part", rigid=table, contact=contact)
-    assert "quarter of 1 s" in text
-    assert "It appears at an amplitude that is 10 % larger, and doubles its period at one that is 4 % larger." in text
-    assert "a compliant part changes to the jumping motion at 40 m/s²." in text
-    assert "exceeds half a cycle, the limit of the first state, at 60 m/s²." in text
 
 
 def test_tables_with_a_visible_variant_count_once():

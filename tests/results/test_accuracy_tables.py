@@ -188,18 +188,3 @@ def test_parts_stick_where_velocities_are_drawn(result):
     velocities = table[table.chosen & (table["shows"] == "mean velocity, state")]
     assert len(velocities)
     assert (velocities.sticks > 0.0).all()
-
-
-def test_rigid_part_doubles_near_the_contact_but_jumps_from_rest_at_larger_amplitudes_only(result):
-    table = result("rigid_part")
-    places = table[table.kind != "velocity"].pivot_table(
-        index=["kind", "number"], columns="model", values="acceleration"
-    )
-    off = places.drop(columns="contact").div(places["contact"], axis=0) - 1.0
-    assert off.size >= 4
-    assert (off.abs() < 0.1).all().all()
-    assert (off.abs() > 1e-3).all().all()  # but they differ within six digits
-    from_rest = table[(table.kind == "velocity") & (table.z0 == 0.0)]
-    last_ride = from_rest[from_rest.state == "first"].groupby("model").acceleration.max()
-    assert set(last_ride.index) == {"contact", "rigid part, e(u)"}
-    assert last_ride["rigid part, e(u)"] > last_ride["contact"] + 1.0

@@ -9,7 +9,6 @@ from scripts.pipeline import imports, source_hash
 CALLS = {
     "accuracy/reference_check": {"accuracy/precision"},
     "accuracy/scene_budget": {
-        "accuracy/rigid_part",
         "dimensions/portraits",
         "motion/critical",
         "motion/impacts",

@@ -29,7 +29,6 @@ CONSTANTS = {
     "accuracy/map_check": {"map_check": "boundary seed tolerance close repeats significant accepted"},
     "accuracy/precision": {"precision": "sample_interval tolerances steps peers seconds"},
     "accuracy/reference_check": {"precision": "reference"},
-    "accuracy/rigid_part": {"": "rigid_part"},
     "accuracy/stability_estimates": {"": "stability_estimates"},
     "accuracy/theory": {"": "theory"},
     "calibration/edges": {"identification": "contacts heights edges"},
@@ -68,7 +67,7 @@ CONSTANTS = {
 }
 # Sections and settings of earlier versions that nothing uses any more.
 GONE = (
-    *("precision_estimates", "scaling", "companion.tolerance", "companion.cycles"),
+    *("precision_estimates", "rigid_part", "scaling", "companion.tolerance", "companion.cycles"),
     *(f"stability.{key}" for key in ("hard", "rivals", "stick", "chatter_steps")),
 )
 # Settings with a new name.

@@ -1,1 +1,1 @@
-"""What the solver is compared with: fixed steps, integrators of others, a rigid part."""
+"""What the solver is compared with: fixed steps, integrators of others."""
