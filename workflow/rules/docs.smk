@@ -299,7 +299,7 @@ rule picture:
     benchmark:
         benchmark_file("docs/{figure}")
     wildcard_constraints:
-        figure="operating|transit|basin_stability|drive|calibration" if EXAMPLE else "overview|speed_accuracy",
+        figure="operating|transit|basin_stability|drive|calibration" if EXAMPLE else "overview|work_precision",
     params:
         **stage("docs.pictures"),
     message:

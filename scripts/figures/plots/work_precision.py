@@ -1,4 +1,6 @@
-"""Error over processor time of all methods in three scenes, and a list of their failures."""
+"""Speed and accuracy in one chart: error over processor time of all methods in three scenes, and their failures."""
+
+import math
 
 import numpy as np
 import pandas as pd
@@ -6,6 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
+from accuracy import speed
+from conveyor import RIVALS
 from figures import style
 
 # Marker and line of each treatment of events, and its name in the legend.
@@ -29,39 +33,65 @@ OUTCOMES = {
     "not finite": ("D", "not finite"),
 }
 MISSING = "not installed"
-# Columns of error, and their titles.
-ERRORS = {
-    "velocity_error": "mean velocity,\nrelative",
-    "state_error": "state at the end,\nin plate amplitudes",
-    "trajectory_error": "trajectory (rms of x, z),\nin plate amplitudes",
-    "event_error": "impacts and separations,\nin cycles",
-}
+SMALLEST = 1e-16  # drawn error
 NAMES = {"jumping": "jumping", "riding": "always in contact", "bouncing": "micro-bounces"}  # of the scenes
 
 
-def draw_curve(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
-    """Draw the successful runs of one method."""
+def method_name(method: str) -> str:
+    """The name of a method in a sentence; methods of SciPy with their package: "SciPy's DOP853"."""
+    rival = RIVALS.get(method)
+    return f"SciPy's {method}" if rival and rival.module == "scipy" else style.METHODS[method][1]
+
+
+def draw_curve(axes: Axes, rows: pd.DataFrame) -> None:
+    """Draw the errors of the runs of one method over their times."""
     method, treatment = rows.method.iloc[0], rows.treatment.iloc[0]
     colour, _ = style.METHODS[method]
     marker, line, _ = TREATMENTS[treatment]
-    good = rows[rows.outcome == "ok"]
     size, order = (3.0, 3) if method == "event" else (2.2, 2)
     width, face = 1.4 if treatment == "exact" else 0.6, colour if treatment in ("exact", "fixed step") else "none"
     markers = {"marker": marker, "markersize": size, "markeredgewidth": 0.6, "markerfacecolor": face}
     axes.plot(
-        good[x], good[y].clip(lower=1e-16), color=colour, linestyle=line, linewidth=width, zorder=order, **markers
+        rows.milliseconds,
+        rows.trajectory_error.clip(lower=SMALLEST),
+        color=colour,
+        linestyle=line,
+        linewidth=width,
+        zorder=order,
+        **markers,
     )
 
 
-def draw_panel(axes: Axes, table: pd.DataFrame, x: str, y: str, paper_step: float) -> None:
-    """Draw the error `y` over the work `x` of all methods in one scene."""
-    for _, rows in table.groupby(["method", "treatment"], sort=False):
-        draw_curve(axes, rows, x, y)
-    paper = table[(table.method == "euler") & np.isclose(table.step, paper_step)]
-    axes.plot(paper[x], paper[y], "o", markersize=7.0, markerfacecolor="none", color=style.EULER)
+def draw_factor(axes: Axes, factor: speed.Factor, below: bool) -> None:
+    """Draw an arrow from another run to the solver at equal error, with the ratio of their times."""
+    look = {"arrowstyle": "-|>", "color": "black", "linewidth": 1.0, "shrinkA": 0.0, "shrinkB": 2.0}
+    tip, tail = (factor.own_milliseconds, factor.error), (factor.milliseconds, factor.error)
+    axes.annotate("", tip, tail, arrowprops=look, zorder=4)
+    place = math.sqrt(factor.own_milliseconds * factor.milliseconds), factor.error
+    offset, side = ((0, -3), "top") if below else ((0, 3), "bottom")
+    style.note(
+        axes,
+        f"{factor.ratio:.2g}×" if factor.ratio < 100.0 else f"{float(f'{factor.ratio:.2g}'):g}×",
+        place,
+        offset,
+        ha="center",
+        va=side,
+        weight="bold",
+    )
+
+
+def draw_panel(axes: Axes, runs: pd.DataFrame, paper_step: float, equal_error: float) -> None:
+    """Draw the error over the processor time of the successful runs of a scene."""
+    for _, rows in runs.groupby(["method", "treatment"], sort=False):
+        draw_curve(axes, rows)
+    paper = speed.paper_run(runs, paper_step)
+    place = paper.milliseconds, paper.trajectory_error
+    axes.plot(*place, "o", markersize=7.0, markerfacecolor="none", color=style.EULER)
+    for factor in speed.factors(runs, paper_step, equal_error):
+        draw_factor(axes, factor, factor.method == "euler")
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_ylim(1e-16, 1e3)
+    axes.set_ylim(SMALLEST, 1e3)
     axes.set_yticks([1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1.0])
     axes.minorticks_off()
     axes.grid(linewidth=0.3, color="0.9")
@@ -143,22 +173,22 @@ def plot(
     riding_times: pd.DataFrame,
     bouncing_times: pd.DataFrame,
     paper_step: float,
+    equal_error: float,
 ) -> Figure:
-    """Draw the errors over processor time in three scenes, with a ring around `paper_step` (s), and all failures."""
-    figure = style.figure(style.PAGE, 195.0)
-    upper, lower = figure.subfigures(2, 1, height_ratios=(2.0, 1.0))
+    """Draw the errors over processor time in three scenes, and all failures.
+
+    A ring is around the run with `paper_step` (s). Speed ratios are at its error and at `equal_error`.
+    """
+    figure = style.figure(style.PAGE, 155.0)
+    upper, lower = figure.subfigures(2, 1, height_ratios=(1.3, 1.0))
     scenes = {"jumping": jumping, "riding": riding, "bouncing": bouncing}
-    grid = upper.subplots(len(scenes), len(ERRORS), sharex=True, sharey=True)
+    panels = upper.subplots(1, len(scenes), sharex=True, sharey=True)
     times = (jumping_times, riding_times, bouncing_times)
-    for row, (name, work), seconds in zip(grid, scenes.items(), times, strict=True):
-        table = work.assign(milliseconds=1e3 * seconds.seconds)
-        for axes, error in zip(row, ERRORS, strict=True):
-            draw_panel(axes, table, "milliseconds", error, paper_step)
-        row[0].set_ylabel(f"{NAMES[name]}\nerror")
-    for axes, title in zip(grid[0], ERRORS.values(), strict=True):
-        axes.set_title(title)
-    for axes in grid[-1]:
-        axes.set_xlabel("processor time in ms")
+    for axes, (name, work), seconds in zip(panels, scenes.items(), times, strict=True):
+        draw_panel(axes, speed.successful_runs(work, seconds), paper_step, equal_error)
+        axes.set_title(NAMES[name])
+        axes.set_xlabel(f"processor time for {work.attrs['duration']:g} s in ms")
+    panels[0].set_ylabel("error of the trajectory\nin units of the plate's motion")
     upper.legend(handles=legend_handles(list(scenes.values())), loc="outside upper center", ncols=4)
     draw_failures(lower, scenes)
     return figure

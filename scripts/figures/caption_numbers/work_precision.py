@@ -1,0 +1,33 @@
+"""Numbers of the caption of the figure work_precision."""
+
+import pandas as pd
+
+from accuracy import speed
+from accuracy.reference_check import DIGITS
+from figures.plots.work_precision import MISSING, NAMES, method_name
+
+
+def numbers(
+    *,
+    jumping: pd.DataFrame,
+    riding: pd.DataFrame,
+    bouncing: pd.DataFrame,
+    jumping_times: pd.DataFrame,
+    riding_times: pd.DataFrame,
+    bouncing_times: pd.DataFrame,
+    reference: pd.DataFrame,
+    paper_step: float,
+    equal_error: float,
+) -> dict:
+    works, times = (jumping, riding, bouncing), (jumping_times, riding_times, bouncing_times)
+    comparisons = []
+    for scene, work, seconds in zip(NAMES.values(), works, times, strict=True):
+        paper, *others = speed.factors(speed.successful_runs(work, seconds), paper_step, equal_error)
+        rival = others[0] if others else None
+        comparisons.append((scene, paper, rival, rival and method_name(rival.method)))
+    return {
+        "comparisons": comparisons,
+        "missing": (jumping.outcome == MISSING).any(),
+        "difference": reference.difference.abs().max(),
+        "digits": DIGITS,
+    }
