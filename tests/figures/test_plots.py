@@ -12,7 +12,8 @@ import pytest
 from accuracy import precision, speed
 from conveyor.solver.status import EVENT_LOST, GAVE_UP, NOT_FINITE, OK, STATUS, STEP_TOO_SMALL, STUCK
 from figures import style
-from figures.plots import drive, fig08, fig15, speed_accuracy, transit, work_precision
+from figures.caption_numbers.work_precision import numbers
+from figures.plots import drive, fig08, fig15, transit, work_precision
 
 
 def sweep(low: float, high: float) -> pd.DataFrame:
@@ -166,17 +167,21 @@ def test_a_picture_does_not_wait_for_the_compiler():
 
 
 @pytest.mark.parametrize(("method", "name"), [("heyoka", "heyoka"), ("DOP853", "SciPy's DOP853")])
-def test_an_arrow_names_the_method_that_the_solver_is_compared_with(method, name):
-    """Not "the best rival", because some methods may not be installed."""
+def test_arrow_and_caption_compare_with_the_fastest_other_method(method, name):
     runs = pd.DataFrame(
         [
             ("event", speed.OWN, np.nan, 1e-10, 1e-12, "ok", 1e-4),
             ("euler", "fixed step", 5e-7, np.nan, 1e-3, "ok", 0.03),
+            ("euler", "fixed step", 5e-3, np.nan, 1e-1, "wrong state", 0.001),
             (method, "modes", np.nan, 1e-10, 1e-10, "ok", 0.004),
         ],
         columns=["method", "treatment", "step", "tolerance", "trajectory_error", "outcome", "seconds"],
     )
     runs.attrs["duration"] = 0.5
-    figure = speed_accuracy.plot(jumping=runs, jumping_times=runs, paper_step=5e-7, equal_error=1e-9)
-    texts = [text.get_text() for text in figure.axes[0].texts]
-    assert f"40× faster than\n{name}" in texts
+    scenes = {f"{scene}{kind}": runs for scene in work_precision.NAMES for kind in ("", "_times")}
+    figure = work_precision.plot(**scenes, paper_step=5e-7, equal_error=1e-9)
+    for axes in figure.subfigs[0].axes:
+        assert [text.get_text() for text in axes.texts if "×" in text.get_text()] == ["300×", "40×"]
+    reference = pd.DataFrame({"difference": [1e-13]})
+    found = numbers(**scenes, reference=reference, paper_step=5e-7, equal_error=1e-9)["comparisons"]
+    assert [rival_name for *_, rival_name in found] == [name] * 3

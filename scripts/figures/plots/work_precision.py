@@ -69,15 +69,8 @@ def draw_factor(axes: Axes, factor: speed.Factor, below: bool) -> None:
     axes.annotate("", tip, tail, arrowprops=look, zorder=4)
     place = math.sqrt(factor.own_milliseconds * factor.milliseconds), factor.error
     offset, side = ((0, -3), "top") if below else ((0, 3), "bottom")
-    style.note(
-        axes,
-        f"{factor.ratio:.2g}×" if factor.ratio < 100.0 else f"{float(f'{factor.ratio:.2g}'):g}×",
-        place,
-        offset,
-        ha="center",
-        va=side,
-        weight="bold",
-    )
+    label = f"{float(f'{factor.ratio:.2g}'):g}×"
+    style.note(axes, label, place, offset, ha="center", va=side, weight="bold")
 
 
 def draw_panel(axes: Axes, runs: pd.DataFrame, paper_step: float, equal_error: float) -> None:
