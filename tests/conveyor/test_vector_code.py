@@ -45,11 +45,17 @@ def widest():
     return next(register for register in REGISTERS if found[register])
 
 
-def test_contact_steps_are_vector_code(widest):
-    """The expansion alone has about 360 products and sums."""
-    memory, _ = contact_lanes.new_memory(contact_lanes.ROWS)
-    contact_lanes.step(memory, contact_lanes.LANES)
-    assert vector_instructions(contact_lanes.step)[widest] > 500
+@pytest.mark.parametrize(("harmonics", "least"), [(0, 500), (1, 1000), (3, 2000)])
+def test_contact_steps_are_vector_code(widest, harmonics, least):
+    """The expansion has about 360 products and sums, and each harmonic adds some 500 vector instructions."""
+
+    @numba.njit(error_model="numpy", nogil=True)
+    def step(memory, lanes):
+        return contact_lanes.step(memory, lanes, harmonics)
+
+    memory, _ = contact_lanes.new_memory(contact_lanes.row_count(harmonics))
+    step(memory, contact_lanes.LANES)
+    assert vector_instructions(step)[widest] > least
 
 
 @pytest.mark.parametrize(("method", "least"), [("euler", 30), ("semi_implicit_euler", 30), ("rk4", 90)])

@@ -119,7 +119,7 @@ def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
     if c.edge_w > 0.0 and series[at + SPRING] > 0.0:
         length = min(length, contact_law.length_of_spring(c, series, at, w0, v0))
     if plate.has_harmonics(c):
-        length = min(length, plate.series_length(c, series, at))
+        length = min(length, plate.series_length(series, first, lanes, c.tolerance))
     return length
 
 

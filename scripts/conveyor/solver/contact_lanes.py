@@ -1,16 +1,16 @@
 """Contact steps of several trajectories side by side, which halves the time of labels.
 
 `step` calls the functions of contact in plain loops over the lanes, which LLVM turns into vector code. A step in which
-an event may be ends in contact, for its lane alone. Lanes follow Hertz contacts (exponent 1.5) whose force may pull,
-on plates without harmonics.
+an event may be ends in contact, for its lane alone. Lanes follow Hertz contacts (exponent 1.5) whose force may pull.
+All plates have the same number of harmonics.
 """
 
 import numpy as np
 
 from . import contact, model, plate, workspace
-from .contact_law import expand_hertz
+from .contact_law import expand_harmonic_hertz, expand_hertz
 from .jit import compiled, compiled_inline, compiled_into_callers
-from .polynomial import ORDER, SIZE, value_in_lane
+from .polynomial import ORDER, value_in_lane
 from .trajectory import MAX_PIECES
 
 # Eight lanes take about a tenth less time than four, also in code for registers of four numbers. A NumPy integer, see
@@ -24,10 +24,12 @@ W, V, SINE, COSINE, GRAVITY, A_Z, OMEGA, STIFFNESS, DAMPING = range(9)
 # the step in the variable s up to which the series holds.
 TOLERANCE, SCALE_V, TIME, END, STEPS, LENGTH = range(9, 15)
 RATIO, ROOT = range(15, 17)  # contact.limiting_term
-# Row SERIES + row + n holds coefficient n of a row of a workspace's step.
-SERIES = 17
+COS_SHIFT, SIN_SHIFT = range(17, 19)
+# Row SERIES + row + n holds coefficient n of a row of a workspace's step, of which a lane keeps the first ones.
+# Harmonics follow.
+SERIES = 19
 KEPT = (workspace.W, workspace.T, workspace.V, workspace.SINE, workspace.COSINE)
-ROWS = SERIES + SIZE * len(KEPT)
+WAVES = SERIES + workspace.STEP
 
 LINE = 64  # bytes, of a register and of a cache line
 HUGE = 1e300
@@ -46,42 +48,48 @@ def value(memory, row, lane, s):
     return value_in_lane(memory, place(SERIES + row, lane), np.uint64(LANES), s)
 
 
-@compiled
-def step(memory, lanes):
+@compiled_inline
+def step(memory, lanes, harmonics):
     """Expand the motions of the first `lanes` lanes, and take the steps in which no event can be.
 
-    Returns an integer with a bit for each lane: 1 if the lane keeps its motion, so that contact.end_step must end it.
+    `harmonics` is the number of harmonics, which the compiler must know: it writes the loop over them out. Returns an
+    integer with a bit for each lane: 1 if the lane keeps its motion, so that contact.end_step must end it.
 
     The number of lanes is an argument because LLVM would unroll a short loop of constant length before it copies the
     functions into it. Unsigned places in one array spare it checks whether numbers overlap.
     """
     stride = np.uint64(LANES)
+    if harmonics > 0:
+        # A loop of its own, because the orders of the harmonics are not known.
+        for k in range(lanes):
+            lane = np.uint64(k)
+            shift = memory[place(COS_SHIFT, lane)], memory[place(SIN_SHIFT, lane)]
+            phase = memory[place(SINE, lane)], memory[place(COSINE, lane)]
+            plate.begin_waves(memory, place(SERIES, lane), place(WAVES, lane), stride, harmonics, *shift, *phase)
     for k in range(lanes):
         lane = np.uint64(k)
         at = place(SERIES, lane)
         w, v, stiffness = memory[place(W, lane)], memory[place(V, lane)], memory[place(STIFFNESS, lane)]
-        expand_hertz(
-            w,
-            v,
-            memory[place(SINE, lane)],
-            memory[place(COSINE, lane)],
-            memory[place(GRAVITY, lane)],
-            memory[place(A_Z, lane)],
-            memory[place(OMEGA, lane)],
-            stiffness,
-            memory[place(DAMPING, lane)],
-            memory,
-            at,
-            stride,
-            False,
-        )
+        sine, cosine = memory[place(SINE, lane)], memory[place(COSINE, lane)]
+        gravity, a_z, omega = memory[place(GRAVITY, lane)], memory[place(A_Z, lane)], memory[place(OMEGA, lane)]
+        constants = gravity, a_z, omega, stiffness, memory[place(DAMPING, lane)]
+        if harmonics > 0:
+            shift = memory[place(COS_SHIFT, lane)], memory[place(SIN_SHIFT, lane)]
+            waves = place(WAVES, lane), harmonics, *shift
+            expand_harmonic_hertz(w, v, sine, cosine, *constants, memory, at, stride, False, *waves)
+        else:
+            expand_hertz(w, v, sine, cosine, *constants, memory, at, stride, False)
         tolerance, scale_v = memory[place(TOLERANCE, lane)], memory[place(SCALE_V, lane)]
         ratio, root = contact.limiting_term(memory, at, stride, tolerance, scale_v, stiffness, 1.5, w, v)
         memory[place(RATIO, lane)], memory[place(ROOT, lane)] = ratio, root
     # A loop of its own, because powers take one number at a time.
     for k in range(lanes):
         lane = np.uint64(k)
-        memory[place(LENGTH, lane)] = memory[place(RATIO, lane)] ** memory[place(ROOT, lane)]
+        length = memory[place(RATIO, lane)] ** memory[place(ROOT, lane)]
+        if harmonics > 0:
+            at, tolerance = place(SERIES, lane), memory[place(TOLERANCE, lane)]
+            length = min(length, plate.series_length(memory, at, stride, tolerance))
+        memory[place(LENGTH, lane)] = length
     stopped = np.uint64(0)
     for k in range(lanes):
         lane = np.uint64(k)
@@ -107,6 +115,11 @@ def step(memory, lanes):
     return np.int64(stopped)
 
 
+def row_count(harmonics: int) -> int:
+    """The number of rows of a memory for plates with a number of harmonics."""
+    return WAVES + workspace.WAVE * harmonics
+
+
 def new_memory(rows: int) -> tuple[np.ndarray, np.ndarray]:
     """A memory, all zero, as a flat array for loops over the lanes, and the same memory with the shape (rows, LANES).
 
@@ -121,7 +134,7 @@ def new_memory(rows: int) -> tuple[np.ndarray, np.ndarray]:
 @compiled
 def can_follow(c):
     """Whether lanes can take the contact steps of a conveyor with these contact.Constants."""
-    return c.exponent == 1.5 and c.tension == model.TENSION_ALLOW and not plate.has_harmonics(c)
+    return c.exponent == 1.5 and c.tension == model.TENSION_ALLOW
 
 
 @compiled_into_callers
@@ -142,7 +155,7 @@ def refill(lane, trajectories, waiting, running, count):
 
 
 @compiled_inline
-def set_constants(memory, lane, c):
+def set_constants(flat, memory, lane, c):
     """Write the Constants of a lane into the memory."""
     memory[GRAVITY, lane] = c.gravity
     memory[A_Z, lane] = c.a_z
@@ -151,6 +164,8 @@ def set_constants(memory, lane, c):
     memory[DAMPING, lane] = c.damping
     memory[TOLERANCE, lane] = c.tolerance
     memory[SCALE_V, lane] = c.scale_v
+    memory[COS_SHIFT, lane], memory[SIN_SHIFT, lane] = c.cos_shift, c.sin_shift
+    plate.write_waves(c, flat, place(WAVES, np.uint64(lane)), np.uint64(LANES))
 
 
 @compiled_inline

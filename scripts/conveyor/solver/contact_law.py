@@ -19,7 +19,7 @@ import numpy as np
 
 from . import plate
 from .jit import compiled, compiled_inline, compiled_into_callers, fma
-from .plate import harmonic_rows, numbers_of  # noqa: F401 - for generated code
+from .plate import numbers_at, rows_of_wave  # noqa: F401 - for generated code
 from .polynomial import ORDER, SIZE, place
 from .unrolled import square
 from .workspace import COSINE, LIFT_W, SINE, SPRING, SQUARE, T, V, W
@@ -127,11 +127,13 @@ def hertz_source(*, harmonics: bool) -> str:
 
     Its arguments are w, v, sine and cosine at s = 0; gravity, a_z, omega, stiffness and damping per mass; the array,
     the place of its first coefficient, and the number of lanes, both unsigned; whether the last three rows are wanted.
+    `expand_harmonic_hertz` also takes the place of the first harmonic, unsigned, the number of harmonics, and cosine
+    and sine of the phase shift. Its first coefficients are those of `plate.begin_waves`.
     """
     arguments = "w0, v0, s0, c0, gravity, a_z, omega, stiffness, damping, series, at, lanes, all_rows"
     lines = [f"def expand_hertz({arguments}):"]
     if harmonics:
-        lines = [f"def expand_harmonic_hertz(c, {arguments}):"]
+        lines = [f"def expand_harmonic_hertz({arguments}, waves, harmonics, cos_shift, sin_shift):"]
     lines += ["t0 = 0.0", "q0 = w0 * w0"]
     for n in range(ORDER):
         inverse = 1.0 / (n + 1)
@@ -172,7 +174,8 @@ def expand_one_harmonic_hertz(c, w0, v0, sine0, cosine0, stiffness, damping, ser
     plate.begin_series(c, series, at, sine0, cosine0)
     first, lanes = np.uint64(at), np.uint64(1)
     constants = c.gravity, c.a_z, c.omega, stiffness, damping
-    expand_harmonic_hertz(c, w0, v0, sine0, cosine0, *constants, series, first, lanes, True)
+    waves = plate.WAVES, c.harmonics, c.cos_shift, c.sin_shift
+    expand_harmonic_hertz(w0, v0, sine0, cosine0, *constants, series, first, lanes, True, *waves)
 
 
 @compiled_into_callers

@@ -19,7 +19,7 @@ import numpy as np
 from .jit import compiled, compiled_inline, compiled_into_callers, copy, number_at
 from .polynomial import ORDER, SIZE, place
 from .unrolled import product, total
-from .workspace import ALONG, COSINE, HARMONICS, LIFT_W, NORMAL, SINE, T, V, W
+from .workspace import ALONG, COSINE, HARMONICS, LIFT_W, NORMAL, SINE, WAVE, T, V, W
 
 # A harmonic in packed parameters: its order k and, as shares of the fundamental's amplitudes, the coefficients of
 # cos kθ and -sin kθ in the accelerations along the track and normal to it.
@@ -32,6 +32,8 @@ PHASES, FINER = 4096, 3
 # What harmonics add to position, velocity and acceleration normal to the track (z, vz, az) and along it (x, vx, ax), as
 # shares of the fundamental's amplitudes; the position with the opposite sign.
 Sums = namedtuple("Sums", "z vz az x vx ax")
+# The first row of harmonics in a workspace, and its number of lanes.
+WAVES, ONE = np.uint64(HARMONICS), np.uint64(1)
 NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 # Bounds: on position (m), acceleration (m/s²) and its rate (m/s³) normal to the track; on acceleration and its rate
 # along the track, as multiples of a_x and a_x ω.
@@ -265,6 +267,7 @@ def recurrence(n: int, *, harmonics: bool) -> list[str]:
     """Source of the coefficients n of LIFT_W (x) and n + 1 of cosine (c) and sine (s), from w and coefficients n.
 
     With `harmonics`, also of their rows and of NORMAL and ALONG, which are in memory because their number is not known.
+    These lines use the names of `contact_law.hertz_source`.
     """
     lines = [
         f"x{n} = {product('c', 'w', n)}",
@@ -276,29 +279,67 @@ def recurrence(n: int, *, harmonics: bool) -> list[str]:
     if not harmonics:
         return lines
     cosine_w, sine_w = (
-        total([(f"series[{row} + np.uint64({k})]", f"w{n - k}") for k in range(n + 1)]) for row in ("cosine", "sine")
+        total([(f"series[{row} + np.uint64({k}) * lanes]", f"w{n - k}") for k in range(n + 1)])
+        for row in ("cosine", "sine")
     )
     return [
         *lines,
-        f"pull_w = x{n} * c.cos_shift - sine_w * c.sin_shift",
-        "for h in range(c.harmonics):",
-        "    cosine, sine = harmonic_rows(h)",
+        f"pull_w = x{n} * cos_shift - sine_w * sin_shift",
+        "for h in range(harmonics):",
+        "    cosine, sine, numbers = rows_of_wave(waves, h, lanes)",
         f"    cosine_w, sine_w = {cosine_w}, {sine_w}",
-        "    k, along_cosine, along_sine, normal_cosine, normal_sine = numbers_of(c, h)",
-        f"    series[cosine + np.uint64({n + 1})] = -turn * k * sine_w",
-        f"    series[sine + np.uint64({n + 1})] = turn * k * cosine_w",
+        "    k, along_cosine, along_sine, normal_cosine, normal_sine = numbers_at(series, numbers, lanes)",
+        f"    series[cosine + np.uint64({n + 1}) * lanes] = -turn * k * sine_w",
+        f"    series[sine + np.uint64({n + 1}) * lanes] = turn * k * cosine_w",
         f"    x{n} += normal_cosine * cosine_w - normal_sine * sine_w",
         "    pull_w += along_cosine * cosine_w - along_sine * sine_w",
-        f"series[at + np.uint64({NORMAL + n + 1})] = turn * x{n}",
-        f"series[at + np.uint64({ALONG + n + 1})] = turn * pull_w",
+        f"series[at + np.uint64({NORMAL + n + 1}) * lanes] = turn * x{n}",
+        f"series[at + np.uint64({ALONG + n + 1}) * lanes] = turn * pull_w",
     ]
 
 
 @compiled_inline
-def harmonic_rows(h):
-    """The rows of a workspace for cosine and sine of harmonic h."""
-    first = np.uint64(HARMONICS + 2 * h * SIZE)
-    return first, first + np.uint64(SIZE)
+def rows_of_wave(waves, h, lanes):
+    """The rows for cosine and sine of harmonic h, and its numbers; `waves` is the first row of the first harmonic."""
+    cosine = waves + np.uint64(h * WAVE) * lanes
+    sine = cosine + np.uint64(SIZE) * lanes
+    return cosine, sine, sine + np.uint64(SIZE) * lanes
+
+
+@compiled_inline
+def numbers_at(series, row, lanes):
+    """The numbers of a harmonic, in the order above, from their first row on; row and lanes are unsigned."""
+    return (
+        series[row],
+        series[row + lanes],
+        series[row + lanes + lanes],
+        series[row + lanes + lanes + lanes],
+        series[row + lanes + lanes + lanes + lanes],
+    )
+
+
+@compiled_inline
+def begin_waves(series, at, waves, lanes, harmonics, cos_shift, sin_shift, sine, cosine):
+    """Write the first coefficients of the rows of harmonics, whose numbers are there, and of NORMAL and ALONG."""
+    sums = NO_SUMS
+    for h in range(harmonics):
+        cosine_row, sine_row, numbers = rows_of_wave(waves, h, lanes)
+        harmonic = numbers_at(series, numbers, lanes)
+        s, c = multiple(int(harmonic[K]), sine, cosine)
+        sums = add_harmonic(sums, harmonic, s, c)
+        series[cosine_row], series[sine_row] = c, s
+    series[at + np.uint64(NORMAL) * lanes] = sine + sums.vz
+    series[at + np.uint64(ALONG) * lanes] = sine * cos_shift + cosine * sin_shift + sums.vx
+
+
+@compiled_inline
+def write_waves(c, series, waves, lanes):
+    """Write the numbers of a conveyor's harmonics behind their rows."""
+    for h in range(c.harmonics):
+        row = rows_of_wave(waves, h, lanes)[2]
+        for number in numbers_of(c, h):
+            series[row] = number
+            row += lanes
 
 
 @compiled_into_callers
@@ -317,13 +358,8 @@ def begin_series(c, series, at, sine, cosine):
     """Write the first coefficients of a step's rows for the plate."""
     series[at + SINE], series[at + COSINE] = sine, cosine
     if has_harmonics(c):
-        added = sums_of(c, sine, cosine)
-        series[at + NORMAL] = sine + added.vz
-        series[at + ALONG] = ahead(c, sine, cosine)[0] + added.vx
-        for h in range(c.harmonics):
-            s, c_k = multiple(int(numbers_of(c, h)[K]), sine, cosine)
-            rows = harmonic_rows(h)
-            series[rows[0]], series[rows[1]] = c_k, s
+        write_waves(c, series, WAVES, ONE)
+        begin_waves(series, np.uint64(at), WAVES, ONE, c.harmonics, c.cos_shift, c.sin_shift, sine, cosine)
 
 
 @compiled_into_callers
@@ -336,7 +372,7 @@ def extend_series(c, series, at, n):
     if has_harmonics(c):
         pull_w = lift_w * c.cos_shift - sine_w * c.sin_shift
         for h in range(c.harmonics):
-            cosine, sine = harmonic_rows(h)
+            cosine, sine, _ = rows_of_wave(WAVES, h, ONE)
             cosine_w, sine_w = turned(series, at + W, cosine, sine, n)
             k, along_cosine, along_sine, normal_cosine, normal_sine = numbers_of(c, h)
             turn = k * c.omega * inverse
@@ -348,11 +384,12 @@ def extend_series(c, series, at, n):
     series[at + LIFT_W + n] = lift_w
 
 
-@compiled_into_callers
-def series_length(c, series, at):
+@compiled_inline
+def series_length(series, at, lanes, tolerance):
     """The s up to which the last terms of a step's velocities of the plate are below the tolerance."""
-    last = max(abs(series[at + NORMAL + ORDER]), abs(series[at + ALONG + ORDER]))
-    return (c.tolerance / last) ** (1.0 / ORDER) if last > 0.0 else math.inf
+    normal, along = series[at + np.uint64(NORMAL + ORDER) * lanes], series[at + np.uint64(ALONG + ORDER) * lanes]
+    last = max(abs(normal), abs(along))
+    return (tolerance / last) ** (1.0 / ORDER) if last > 0.0 else math.inf
 
 
 @compiled_into_callers

@@ -5,12 +5,13 @@ rows for cosine and sine of each harmonic of the plate, which last as long as on
 coefficients from its first row on, in the rows at + W, at + T and so forth.
 """
 
-from ..parameters import MOST_HARMONICS
+from ..parameters import HARMONIC, MOST_HARMONICS
 from .polynomial import FIRST_ROW, SIZE
 
 SPARE = FIRST_ROW
 HARMONICS = SPARE + SIZE
-FIRST = HARMONICS + 2 * MOST_HARMONICS * SIZE
+WAVE = 2 * SIZE + len(HARMONIC)
+FIRST = HARMONICS + MOST_HARMONICS * WAVE
 # The rows of a step: w, t, v, sine and cosine of the phase, w², w^(2p+1), and w times the plate's normal acceleration,
 # divided by its amplitude. The last two belong to plates with harmonics: their velocities normal to the track and along
 # it, divided by the amplitudes of the fundamental.

@@ -1,5 +1,7 @@
 """Contact steps in lanes: bit for bit equal to single steps, and no missed event."""
 
+import functools
+
 import numba
 import numpy as np
 import pytest
@@ -20,13 +22,34 @@ def take_one(c, series, w, v, sine, cosine):
 
 
 @numba.njit(error_model="numpy")
-def fill(memory, lane, c):
-    contact_lanes.set_constants(memory, lane, c)
+def fill(flat, memory, lane, c):
+    contact_lanes.set_constants(flat, memory, lane, c)
 
 
-def random_contacts(count, seed):
-    """Constants of conveyors, and √penetration in units of that at rest, speed in that of a fall, phase: of impacts,
-    deep in the plate, on the way out, about to turn round."""
+@functools.cache
+def step_for(harmonics):
+    """`contact_lanes.step` for plates with a number of harmonics."""
+
+    @numba.njit(error_model="numpy")
+    def step(memory, lanes):
+        return contact_lanes.step(memory, lanes, harmonics)
+
+    return step
+
+
+def random_waves(count, rng):
+    """A number of harmonics of different orders."""
+    return [
+        {"order": int(k), "along": rng.uniform(0.0, 0.3), "normal": rng.uniform(0.0, 0.3), "normal_phase": 1.0}
+        for k in rng.choice(np.arange(2, 9), count, replace=False)
+    ]
+
+
+def random_contacts(count, seed, harmonics=0):
+    """Packed parameters; constants of conveyors; √penetration in units of that at rest, speed in that of a fall; phase.
+
+    Impacts, and parts deep in the plate, on the way out, or about to turn round.
+    """
     rng = np.random.default_rng(seed)
     conveyors = [
         Conveyor(
@@ -34,44 +57,44 @@ def random_contacts(count, seed):
             frequency=rng.uniform(20.0, 100.0),
             stiffness=10.0 ** rng.uniform(3.5, 7.0),
             damping=rng.uniform(0.0, 1.0) * (rng.random() < 0.8),
+            harmonics=random_waves(harmonics, rng),
         )
         for _ in range(count)
     ]
     tolerances = rng.choice(TOLERANCES, count)
-    constants = [
-        contact.constants(model.pack(conveyor, Start()), tolerance)
-        for conveyor, tolerance in zip(conveyors, tolerances, strict=True)
-    ]
+    # Constants point to the harmonics in the parameters.
+    rows = [model.pack(conveyor, Start()) for conveyor in conveyors]
+    constants = [contact.constants(row, tolerance) for row, tolerance in zip(rows, tolerances, strict=True)]
     w = rng.uniform(0.0, 3.0, count) * (rng.random(count) < 0.8)
     v = np.where(w > 0.0, rng.uniform(-5.0, 5.0, count), rng.uniform(0.0, 5.0, count))
     turning = rng.random(count) < 0.2
     w[turning], v[turning] = rng.uniform(0.3, 0.9, turning.sum()), rng.uniform(-0.2, 0.0, turning.sum())
     w *= [c.scale_w for c in constants]
     v *= [c.scale_v for c in constants]
-    return constants, w, v, rng.uniform(0.0, 2.0 * np.pi, count)
+    return rows, constants, w, v, rng.uniform(0.0, 2.0 * np.pi, count)
 
 
-@pytest.mark.parametrize("lanes", [1, 2, 4, 8])
-def test_steps_have_the_bits_of_single_ones(lanes):
-    constants, w, v, phase = random_contacts(400, seed=lanes)
+@pytest.mark.parametrize(("lanes", "harmonics"), [(1, 0), (2, 0), (4, 0), (8, 0), (1, 1), (8, 1), (8, 3)])
+def test_steps_have_the_bits_of_single_ones(lanes, harmonics):
+    _, constants, w, v, phase = random_contacts(400, lanes, harmonics)
     series = contact.workspace()
     taken = 0
     for first in range(0, 400, lanes):
-        flat, memory = contact_lanes.new_memory(contact_lanes.ROWS)
+        flat, memory = contact_lanes.new_memory(contact_lanes.row_count(harmonics))
         rows = range(first, first + lanes)
         for lane, k in enumerate(rows):
-            fill(memory, lane, constants[k])
+            fill(flat, memory, lane, constants[k])
             start = w[k], v[k], np.sin(phase[k]), np.cos(phase[k])
             memory[[W, V, SINE, COSINE], lane] = start
             memory[[TIME, END], lane] = 0.001, 1.0
         before = memory.copy()
-        stays = contact_lanes.step(flat, lanes)
+        stays = step_for(harmonics)(flat, lanes)
         assert (memory[:, lanes:] == 0.0).all()
         for lane, k in enumerate(rows):
             length, new_w, new_v, lapse, event = take_one(constants[k], series, *before[[W, V, SINE, COSINE], lane])
             # The rows that lanes keep are the first ones.
             kept = len(contact_lanes.KEPT) * polynomial.SIZE
-            np.testing.assert_array_equal(memory[SERIES:, lane], series[FIRST : FIRST + kept])
+            np.testing.assert_array_equal(memory[SERIES : SERIES + kept, lane], series[FIRST : FIRST + kept])
             if stays >> lane & 1:
                 rows_of_motion = [W, V, SINE, COSINE, TIME, STEPS]
                 assert (memory[rows_of_motion, lane] == before[rows_of_motion, lane]).all()
@@ -84,16 +107,15 @@ def test_steps_have_the_bits_of_single_ones(lanes):
 
 
 def test_a_step_stays_where_no_time_or_no_step_is_left_or_what_is_not_a_number():
-    constants, *_ = random_contacts(1, seed=0)
-    c = constants[0]
-    flat, memory = contact_lanes.new_memory(contact_lanes.ROWS)
+    _, (c,), *_ = random_contacts(1, seed=0)
+    flat, memory = contact_lanes.new_memory(contact_lanes.row_count(0))
     for lane in range(4):
-        fill(memory, lane, c)
+        fill(flat, memory, lane, c)
         memory[[W, V, SINE, COSINE, TIME, END], lane] = c.scale_w, 0.0, 0.0, 1.0, 0.0, 1.0
     memory[END, 1] = 0.0
     memory[STEPS, 2] = MAX_PIECES
     memory[V, 3] = np.nan
-    assert contact_lanes.step(flat, 4) == 0b1110
+    assert step_for(0)(flat, 4) == 0b1110
 
 
 def test_what_can_be_followed_in_lanes():

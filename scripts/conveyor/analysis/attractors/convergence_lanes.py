@@ -7,12 +7,14 @@ the contacts that lanes cannot follow, and single trajectories. A trajectory giv
 its lane and its neighbours are.
 """
 
+import functools
 from collections import namedtuple
 
 import numpy as np
 
-from ...solver import contact, contact_lanes, vertical
-from ...solver.contact_lanes import COSINE, END, LANES, LENGTH, NONE, ROWS, SINE, STEPS, TIME, V, W
+from ...parameters import PARAMETERS
+from ...solver import contact, contact_lanes, plate, vertical
+from ...solver.contact_lanes import COSINE, END, LANES, LENGTH, NONE, SINE, STEPS, TIME, V, W
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
 from ...solver.trajectory import BEGIN_OF_CYCLE, MAX_PIECES, time_to_next_cycle
@@ -34,9 +36,9 @@ Search = namedtuple("Search", "max_cycles attractors rows strobes")
 
 
 @compiled_into_callers
-def begin_trajectory(c, parameters, lane, steps, cycle, counts):
+def begin_trajectory(c, parameters, lane, memory, steps, cycle, counts):
     """The Motion at the initial condition of `parameters`, shape (16,); resets all that is known of the lane."""
-    contact_lanes.set_constants(steps, lane, c)
+    contact_lanes.set_constants(memory, steps, lane, c)
     for k in range(4):
         counts[k] = BEFORE_FIRST_CYCLE if k == FOLLOWED else 0
     # The first whole cycle begins within one cycle.
@@ -95,63 +97,69 @@ def begin_cycle(c, state, lane, steps, cycle):
     return vertical.motion_at(c, -state[0], -state[1], 0.0, BEGIN_OF_CYCLE)
 
 
-@compiled
-def follow(parameters, tolerance, search, found, side_by_side, work):
-    """The compiled part of `follow_all_to_attractors`.
+@functools.cache
+def compiled_for(harmonics):
+    """The compiled part of `follow_all_to_attractors` for plates with a number of harmonics."""
 
-    Parameters
-    ----------
-    search : a Search
-    found : convergence.new_trajectories, filled
-    side_by_side : whether lanes take contact steps together; otherwise one trajectory follows the other
-    work : the memory of contact_lanes, the state of each lane's cycle, shape (3, LANES), the trajectory of each lane,
-        a contact.workspace, and history and counters of each lane's search
-    """
-    parameters, search, found = no_refcount((parameters, search, found))
-    memory, steps, cycle, trajectories, series, histories, counters = no_refcount(work)
-    constants = [contact.constants(parameters[0], tolerance)] * LANES
-    waiting = running = 0
-    stopped = (1 << LANES) - 1  # a bit for each lane
-    while True:
-        for lane in range(LANES):
-            if not (stopped >> lane) & 1:
-                continue
-            i, c, past, counts = trajectories[lane], constants[lane], histories[lane], counters[lane]
-            motion = stopped_motion(lane, steps)
-            piece = Piece(GRAZE, 0.0, 0.0, TIME_LIMIT, 0.0, 0.0, 0.0, 0.0)
-            if i != NONE:
-                contact_lanes.copy_series(steps, lane, series, FIRST)
-                piece = vertical.press(c, series, FIRST, motion, steps[LENGTH, lane], steps[END, lane] - motion.t)
-            while True:
-                over = i == NONE
-                if not over:
-                    count_piece(piece, lane, steps, cycle)
-                    motion = vertical.arrive(c, motion, piece, cycle[ORIGIN, lane])
-                    over = piece.end == LOST or not vertical.is_finite(motion) or steps[STEPS, lane] > MAX_PIECES
-                    if piece.end == TIME_LIMIT and not over:
-                        over = end_cycle(c, i, lane, motion, cycle, search, past, counts, found)
-                        motion = begin_cycle(c, found.states[i], lane, steps, cycle)
-                if over:
-                    waiting, running = contact_lanes.refill(lane, trajectories, waiting, running, len(parameters))
-                    i = trajectories[lane]
-                    if i == NONE:
+    @compiled
+    def follow(parameters, tolerance, search, found, side_by_side, work):
+        """Follow trajectories.
+
+        Parameters
+        ----------
+        search : a Search
+        found : convergence.new_trajectories, filled
+        side_by_side : whether lanes take contact steps together; otherwise one trajectory follows the other
+        work : the memory of contact_lanes, the state of each lane's cycle, shape (3, LANES), the trajectory of each
+            lane, a contact.workspace, and history and counters of each lane's search
+        """
+        parameters, search, found = no_refcount((parameters, search, found))
+        memory, steps, cycle, trajectories, series, histories, counters = no_refcount(work)
+        constants = [contact.constants(parameters[0], tolerance)] * LANES
+        waiting = running = 0
+        stopped = (1 << LANES) - 1  # a bit for each lane
+        while True:
+            for lane in range(LANES):
+                if not (stopped >> lane) & 1:
+                    continue
+                i, c, past, counts = trajectories[lane], constants[lane], histories[lane], counters[lane]
+                motion = stopped_motion(lane, steps)
+                piece = Piece(GRAZE, 0.0, 0.0, TIME_LIMIT, 0.0, 0.0, 0.0, 0.0)
+                if i != NONE:
+                    contact_lanes.copy_series(steps, lane, series, FIRST)
+                    piece = vertical.press(c, series, FIRST, motion, steps[LENGTH, lane], steps[END, lane] - motion.t)
+                while True:
+                    over = i == NONE
+                    if not over:
+                        count_piece(piece, lane, steps, cycle)
+                        motion = vertical.arrive(c, motion, piece, cycle[ORIGIN, lane])
+                        over = piece.end == LOST or not vertical.is_finite(motion) or steps[STEPS, lane] > MAX_PIECES
+                        if piece.end == TIME_LIMIT and not over:
+                            over = end_cycle(c, i, lane, motion, cycle, search, past, counts, found)
+                            motion = begin_cycle(c, found.states[i], lane, steps, cycle)
+                    if over:
+                        waiting, running = contact_lanes.refill(lane, trajectories, waiting, running, len(parameters))
+                        i = trajectories[lane]
+                        if i == NONE:
+                            break
+                        c = constants[lane] = contact.constants(parameters[i], tolerance)
+                        motion = begin_trajectory(c, parameters[i], lane, memory, steps, cycle, counts)
+                    if (
+                        side_by_side
+                        and contact_lanes.can_follow(c)
+                        and motion.touching
+                        and not vertical.is_grazing(c, motion)
+                    ):
+                        contact_lanes.set_motion(motion, lane, steps)
                         break
-                    c = constants[lane] = contact.constants(parameters[i], tolerance)
-                    motion = begin_trajectory(c, parameters[i], lane, steps, cycle, counts)
-                if (
-                    side_by_side
-                    and contact_lanes.can_follow(c)
-                    and motion.touching
-                    and not vertical.is_grazing(c, motion)
-                ):
-                    contact_lanes.set_motion(motion, lane, steps)
-                    break
-                piece = vertical.next_piece(c, series, FIRST, motion, steps[END, lane] - motion.t)
-        if running == 0:
-            return
-        stopped = 0
-        while stopped == 0:
-            stopped = contact_lanes.step(memory, LANES) & running
+                    piece = vertical.next_piece(c, series, FIRST, motion, steps[END, lane] - motion.t)
+            if running == 0:
+                return
+            stopped = 0
+            while stopped == 0:
+                stopped = contact_lanes.step(memory, LANES, harmonics) & running
+
+    return follow
 
 
 def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows, strobes=None):
@@ -167,15 +175,17 @@ def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows
     """
     found = convergence.new_trajectories(len(parameters))
     if len(parameters) > 0:
+        harmonics = (parameters.shape[1] - len(PARAMETERS)) // plate.NUMBERS
         strobes = np.empty((len(parameters), 0, 2)) if strobes is None else strobes
         trajectories, side_by_side = np.full(LANES, NONE), len(parameters) >= SIDE_BY_SIDE
         work = (
-            *contact_lanes.new_memory(ROWS),
+            *contact_lanes.new_memory(contact_lanes.row_count(harmonics)),
             np.zeros((3, LANES)),
             trajectories,
             contact.workspace(),
             np.empty((LANES, 3, PAST)),
             np.empty((LANES, 4), np.int64),
         )
+        follow = compiled_for(harmonics)
         follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), found, side_by_side, work)
     return found

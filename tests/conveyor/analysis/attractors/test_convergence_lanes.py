@@ -39,6 +39,22 @@ def test_bits_of_random_initial_conditions():
     assert {convergence.PERIODIC, convergence.NOT_CONVERGED} <= set(found.outcomes)
 
 
+def test_bits_of_plates_with_harmonics():
+    """Conveyors with one number of harmonics, of different orders; some contacts are not for lanes."""
+    rng = np.random.default_rng(5)
+    waves = [[{"order": int(k), "normal": 0.1, "along": rng.uniform(0.0, 0.2)}] for k in rng.integers(2, 7, 30)]
+    contacts = [{}, {}, {"exponent": 1.0}, {"phase_shift": 0.3}, {"tension": "clip"}] * 6
+    parameters = np.array(
+        [
+            pack(Conveyor(acceleration=rng.uniform(20.0, 80.0), harmonics=wave, **contact), Start(z=3e-4))
+            for wave, contact in zip(waves, contacts, strict=True)
+        ]
+    )
+    found = together(parameters, 150)
+    assert_same(found, one_by_one(parameters, 150))
+    assert {convergence.PERIODIC, convergence.NOT_CONVERGED} <= set(found.outcomes)
+
+
 @pytest.mark.parametrize("acceleration", [40.0, 50.5, 53.0, 80.0])
 def test_bits_of_maps_with_known_attractors(acceleration):
     parameters = on_map(acceleration, 40)
