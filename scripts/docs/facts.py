@@ -1,5 +1,17 @@
-"""Facts for the pages: README, article and site take their numbers from here."""
+"""Facts for the pages: README, article, site and metadata take their numbers from the file that this stage makes.
 
+It has the facts of `collect_facts`, and these:
+
+    version           of the library and the workflow
+    prefix            prefix of the config; empty for the paper's config
+    step              time step of the paper's method, s
+    tighter           factor between the usual tolerances and the tighter ones that give the uncertainty of the claims
+    figures           titles and sections of all figures, by name
+    statements        the claims as described by claims.verdicts, by name
+    costs             of the jobs of the build by kind, and of `everything`, as builds.provenance describes
+"""
+
+import json
 from typing import Any
 
 import numpy as np
@@ -7,7 +19,7 @@ import pandas as pd
 
 from claims.about_proofs import lowest_fold, stable_motions
 from claims.about_states import flat_part
-from claims.verdicts import VERDICTS
+from claims.verdicts import VERDICTS, describe_claims
 from conveyor import MAX_PERIOD
 from excitation import clean_drive
 from figures.caption_numbers import fig10
@@ -64,8 +76,8 @@ def summarize_transit(transit: pd.DataFrame, lengths: pd.DataFrame) -> dict[str,
     widest = lengths[lengths.regime == SEVERAL].sort_values(["spread", "length"]).acceleration.iloc[-1]
     identical, varied = (transit[transit.population == kind] for kind in POPULATIONS)
     return {
-        "uneven": identical.loc[(identical.acceleration - widest).abs().idxmin()],
-        "even": varied.loc[varied.spread.idxmin()],
+        "uneven": identical.loc[(identical.acceleration - widest).abs().idxmin()].to_dict(),
+        "even": varied.loc[varied.spread.idxmin()].to_dict(),
         "track": transit.attrs["length"],
         "middle": ENDS[1] - ENDS[0],
         "differences": spreads_of(transit.attrs),
@@ -102,3 +114,21 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         **summarize_transit(tables["transit"], tables["lengths"]),
         "clean": clean_drive.statement_of(tables["drives"]),
     }
+
+
+def make(provenance: str, values: dict[str, Any], **tables: pd.DataFrame) -> str:
+    """The facts as JSON.
+
+    Parameters
+    ----------
+    provenance : of the build, as JSON
+    values : version, prefix, step, tighter and figures, as above
+    tables : as `collect_facts` needs them
+    """
+    facts = {
+        **values,
+        **collect_facts(tables),
+        "statements": {claim["id"]: claim for claim in describe_claims(tables["claims"])},
+        "costs": json.loads(provenance)["costs"],
+    }
+    return json.dumps(facts, indent=1, ensure_ascii=False, default=lambda numbers: numbers.tolist()) + "\n"

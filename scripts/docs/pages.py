@@ -2,22 +2,16 @@
 
 A template is Markdown (or YAML) with Jinja fields. It can use the facts of docs.facts and these names:
 
-    version           of the library and the workflow
-    prefix            prefix of the config; empty for the paper's config
-    step              time step of the paper's method, s
-    tighter           factor between the usual tolerances and the tighter ones that give the uncertainty of the claims
     figures           titles, sections, captions and labels of all figures, by name
-    statements        the claims as described by claims.verdicts, by name; quantities have a margin and an uncertainty
+    statements        the claims, with a margin and an uncertainty of each quantity
     tightened         number of claims evaluated with tighter tolerances
     same_verdicts     number of them whose verdict does not change
-    costs             of the jobs of the build by kind, and of `everything`, as builds.provenance describes
     gaps              keys of the config whose comment says that the paper leaves them open
     keys              all keys of the config by section, with the values of the default config
     entries           entries of the sections of the paper's config, with their comments
     modules           modules of the library by package
     proved            the page of what is proved
     columns           the page of all tables and their columns
-    findings          the list of findings beyond the paper
     figure(name)      a figure with its caption, in the markup of the medium
     cell(text)        a text for a cell of a table
     interval(low, high)   an accepted interval in words
@@ -27,11 +21,8 @@ import json
 import re
 from collections.abc import Callable
 
-import pandas as pd
-
-from claims.verdicts import describe_claims
 from docs.config_keys import FileKey, Key, list_keys, parse_file
-from docs.facts import collect_facts, describe_interval, margin
+from docs.facts import describe_interval, margin
 from pipeline.templates import render
 
 # Markup of a subscript for pandoc and for Sphinx; captions are reStructuredText.
@@ -144,53 +135,43 @@ def add_uncertainty(claims: dict[str, dict], tighter: dict[str, dict]) -> None:
 
 def make(
     templates: list[str],
-    figures: dict[str, dict],
-    values: dict[str, float | str],
+    facts: str,
     captions: list[str] = (),
-    provenance: str = "",
-    uncertainty: str = "",
+    uncertainty: str = "{}",
     proved: str = "",
-    findings: str = "",
     columns: str = "",
     medium: str = "site",
     folder: str = "",
     config: list[str] = (),
     schema: str = "",
     library: list[str] = (),
-    **tables: pd.DataFrame,
 ) -> list[str]:
     """The pages from templates, in order.
 
     Parameters
     ----------
-    figures : entries of the config, with title and section
-    values, proved, findings, columns : for templates, as above
+    facts : as docs.facts makes them, as JSON
     captions : of all figures, in order
-    provenance : of the build, as JSON
     uncertainty : changes of the claims with tighter tolerances, as JSON
+    proved, columns : for templates, as above
     medium : print or site
     folder : folder of the figures, relative to the page
     config : texts of the default config files
     schema : JSON Schema of the config
     library : files of the library's modules, without extensions
-    tables : the tables that docs.facts needs
     """
     defaults = [key for text in config for key in parse_file(text)]
     known = list(list_keys(json.loads(schema))) if schema else []
-    described = describe_figures(figures, captions, medium)
-    changes = json.loads(uncertainty) if uncertainty else {}
-    claims = {claim["id"]: claim for claim in describe_claims(tables["claims"])}
-    add_uncertainty(claims, changes)
+    collected = json.loads(facts)
+    changes = json.loads(uncertainty)
+    add_uncertainty(collected["statements"], changes)
+    described = describe_figures(collected["figures"], captions, medium)
     fields = {
-        **collect_facts(tables),
-        **values,
+        **collected,
         "figures": described,
-        "statements": claims,
         "tightened": len(changes),
         "same_verdicts": sum(one["same_verdict"] for one in changes.values()),
-        "costs": json.loads(provenance)["costs"] if provenance else {},
         "proved": proved,
-        "findings": findings,
         "columns": columns,
         "gaps": find_gaps(defaults),
         "keys": group_keys(known, defaults),

@@ -206,7 +206,7 @@ def test_a_figure_that_makes_no_sense_says_so():
     assert "figures/bowl/fig04.pdf cannot be made for this conveyor: its amplitudes lie" in run.stdout
 
 
-@pytest.mark.parametrize("target", ["article", "results/bowl/findings.md", "results/bowl/docs/identification.md"])
+@pytest.mark.parametrize("target", ["article", "results/bowl/facts.json", "results/bowl/docs/identification.md"])
 def test_pages_with_the_papers_results_say_that_they_need_its_config(target):
     run = Project(ROOT).called("--dry-run", target, "--configfile", str(EXAMPLES["bowl"]))
     assert run.returncode != 0

@@ -23,7 +23,7 @@ if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
 # "" or "NAME/": a config with a prefix has its own folder of results and figures.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
 CORES = workflow.cores or 1
-# The findings and the identification need all claims of the paper.
+# The facts and the identification need all claims of the paper.
 HAS_ALL_CLAIMS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()
 
 

@@ -24,7 +24,7 @@ PAGES = {
     ),
     "tables": {},
 }
-# The tables behind the numbers of the other pages, by their roles in scripts/docs/facts.py.
+# The tables behind the facts, by their roles in scripts/docs/facts.py.
 FACTS = {
     **tables_of("results/claims", "results/benchmark", "lyapunov/spectrum", "orbits/cascade"),
     **PAGES["certificates"],
@@ -38,22 +38,11 @@ FACTS = {
     "lengths": table("operating/track_lengths"),
     "drives": table("excitation/clean_drive"),
 }
-FACTS_PARAMS = {
-    "figures": {
-        name: {"title": title_of(name), "section": entry["section"]} for name, entry in config["figures"].items()
-    },
-    "values": {
-        "version": __version__,
-        "prefix": config["prefix"],
-        "step": config["solver"]["step"],
-        "tighter": config["uncertainty"]["tighter"],
-    },
-}
 KEPT_PAGES = ("README.md", "metadata.yaml", "codecheck.yml")
 ARTICLE_PARTS = {
+    "facts": result("facts.json"),
     "config": [os.path.relpath(file) for file in DEFAULT_FILES],
     "captions": caption_files(),
-    "provenance": result("provenance.json"),
     "uncertainty": result("uncertainty.json"),
     "proved": f"{DOCS}certificates.md",
 }
@@ -146,21 +135,31 @@ rule companion:
         "../../scripts/make.py"
 
 
-rule findings:
+# The numbers of README, article, site and metadata.
+rule facts:
     input:
         unpack(from_paper(FACTS)),
-        templates=[source("workflow/templates/findings.md")],
+        provenance=result("provenance.json"),
     output:
-        result("findings.md"),
+        result("facts.json"),
     log:
-        log_file("docs/findings"),
+        log_file("docs/facts"),
     benchmark:
-        benchmark_file("docs/findings")
+        benchmark_file("docs/facts")
     params:
-        **stage("docs.pages"),
-        **FACTS_PARAMS,
+        **stage("docs.facts"),
+        values={
+            "version": __version__,
+            "prefix": config["prefix"],
+            "step": config["solver"]["step"],
+            "tighter": config["uncertainty"]["tighter"],
+            "figures": {
+                name: {"title": title_of(name), "section": entry["section"]}
+                for name, entry in config["figures"].items()
+            },
+        },
     message:
-        "Findings beyond the paper"
+        "The numbers of all pages"
     script:
         "../../scripts/make.py"
 
@@ -168,10 +167,8 @@ rule findings:
 # The README, the form of the journal ReScience, and the manifest of CODECHECK.
 rule kept_pages:
     input:
-        unpack(from_paper(FACTS)),
+        facts=result("facts.json"),
         templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
-        findings=result("findings.md"),
-        provenance=result("provenance.json"),
     output:
         [f"{PROJECT}{name}" for name in KEPT_PAGES],
     log:
@@ -180,7 +177,6 @@ rule kept_pages:
         benchmark_file("docs/kept_pages")
     params:
         **stage("docs.pages"),
-        **FACTS_PARAMS,
     message:
         "README and metadata"
     script:
@@ -190,7 +186,6 @@ rule kept_pages:
 rule article:
     input:
         figure_files(),
-        unpack(from_paper(FACTS)),
         **ARTICLE_PARTS,
         templates=[ARTICLE],
         frame=source("workflow/templates/article.typ"),
@@ -203,7 +198,6 @@ rule article:
         benchmark_file("docs/article")
     params:
         **stage("docs.article"),
-        **FACTS_PARAMS,
         medium="print",
         folder=lambda wildcards, input: f"{os.path.dirname(input[0])}/",
     message:
@@ -214,7 +208,6 @@ rule article:
 
 rule site_pages:
     input:
-        unpack(from_paper(FACTS)),
         **ARTICLE_PARTS,
         templates=SITE_TEMPLATES,
         schema=source("config/schema.json"),
@@ -227,7 +220,6 @@ rule site_pages:
         benchmark_file("docs/site_pages")
     params:
         **stage("docs.pages"),
-        **FACTS_PARAMS,
         medium="site",
         folder="figures/",
         library=LIBRARY,
