@@ -64,6 +64,11 @@ TABLES = {
         fields.number("checked_impact_speed", "m/s", "largest 95 % quantile of the impact speed within the margin"),
         fields.number("checked_back", "1", "largest share of the parts that have moved back"),
         fields.number("checked_late", "1", "largest share of the parts that are late"),
+        fields.number(
+            "pure_velocity",
+            "m/s",
+            "as checked_velocity, without the second harmonic at the same peak acceleration; null if not searched",
+        ),
         fields.flag("confirmed", "whether these numbers keep the constraints"),
         fields.flag("recommended", "whether it is one of the recommended settings"),
     ),
@@ -226,7 +231,7 @@ def objectives_of(outcome: pd.DataFrame, acceleration: pd.Series) -> np.ndarray:
 def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFrame:
     """A front with the transit of all parts for some designs, and the recommended ones among confirmed designs."""
     unknown = dict.fromkeys((f"checked_{name}" for name in CHECKED), np.nan)
-    front = front.assign(checked=False, confirmed=False, recommended=False, **unknown)
+    front = front.assign(checked=False, pure_velocity=np.nan, confirmed=False, recommended=False, **unknown)
     chosen = spread(objectives_of(front, front.peak_acceleration), MOST_CHECKED)
     if len(chosen) == 0:
         return front
@@ -235,6 +240,9 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
     outcome.index = chosen
     front.loc[chosen, "checked"] = True
     front.loc[chosen, list(unknown)] = outcome[list(CHECKED)].to_numpy()
+    if designs.shape[1] > len(SEARCHED):
+        pure = np.column_stack([peak_acceleration(designs), designs[:, 1 : len(SEARCHED)]])
+        front.loc[chosen, "pure_velocity"] = evaluate(pure, settings, CHECK_ERRORS, threads=threads).velocity.to_numpy()
     front.loc[chosen, "confirmed"] = is_within(outcome, settings)
     sure = outcome[is_within(outcome, settings)]
     best = spread(objectives_of(sure, front.peak_acceleration[sure.index]), RECOMMENDED)

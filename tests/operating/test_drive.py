@@ -265,3 +265,23 @@ def test_a_design_has_its_harmonic_in_the_direction_of_vibration():
     assert model["harmonics"] == [harmonic]
     assert [model[name] for name in drive.SEARCHED[1:]] == PAPER
     assert "harmonics" not in drive.model_of(np.array([40.0, *PAPER]), {"friction": 0.15})
+
+
+def test_designs_are_compared_with_a_pure_drive_of_the_same_peak_acceleration():
+    designs = np.array([[40.0, *PAPER, 0.3, 0.7], [50.0, *PAPER, 0.0, 0.0], [30.0, *PAPER, 0.1, -2.0]])
+    outcome = drive.evaluate(designs, SECOND, drive.CHECK_ERRORS)
+    peak = drive.peak_acceleration(designs)
+    front = pd.DataFrame(designs, columns=drive.searched(SECOND["bounds"])).assign(
+        peak_acceleration=peak, displacement=outcome.displacement, velocity=outcome.velocity, impact_speed=1.0
+    )
+    front = drive.check(front, SECOND)
+    pure = drive.evaluate(np.column_stack([peak, designs[:, 1:4]]), SETTINGS, drive.CHECK_ERRORS)
+    assert front.pure_velocity.tolist() == pure.velocity.tolist()
+    assert front.pure_velocity[1] == pytest.approx(front.checked_velocity[1], rel=1e-9)  # a share of zero
+    assert front.pure_velocity[0] != front.checked_velocity[0]
+    front.attrs = SECOND
+    page = drive_page.make(TEMPLATE, front.assign(recommended=True), growing(0.1, 0.9, 0.995, 1.0))
+    gain = (front.checked_velocity / front.pure_velocity).max() - 1.0
+    assert "The same without second harmonic" in page
+    assert ("faster by at most" in page) == (gain > 0.0)
+    assert not drive.check(front, SETTINGS).pure_velocity.notna().any()
