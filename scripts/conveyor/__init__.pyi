@@ -45,7 +45,7 @@ from .analysis.attractors.sampling import sampled_initial_conditions
 # The stroboscopic map
 from .analysis.map_states import initial_states, start_at, strobes
 from .analysis.stroboscopic_map import MAX_PERIOD
-from .solver.trajectory import BEGIN_OF_CYCLE
+from .solver.pieces import BEGIN_OF_CYCLE
 
 # Basins of attraction and their boundaries
 from .interface import Basin, basin
@@ -113,7 +113,7 @@ from .analysis.amplitude_spectrum import AmplitudeSpectrum, harmonic_spectrum, w
 from .analysis.throw_theory import throw_number, throw_velocity
 
 # What the study of the solver reports of it
-from .solver.horizontal import SAMPLES
+from .solver.record import SAMPLES
 from .solver.polynomial import ORDER
 
 # Integrators of others with which the solver is compared

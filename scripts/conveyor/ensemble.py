@@ -11,8 +11,8 @@ from .methods import fixed_step
 from .packing import as_rows, check_rows
 from .parallel import for_each_chunk
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
-from .solver import trajectory
-from .solver.horizontal import SAMPLES, VX, VZ, X, Z
+from .solver import record, trajectory
+from .solver.record import SAMPLES, VX, VZ, X, Z
 from .solver.status import OK, STATUS
 
 NEEDS = ("feeding", "vertical")
@@ -34,12 +34,12 @@ def follow_by_events(parameters, durations, tolerance, feeding):
         "vx_end": after[:, VX],
         "z_end": after[:, Z],
         "vz_end": after[:, VZ],
-        "max_gap": results[:, trajectory.MAX_GAP],
-        "impacts": results[:, trajectory.IMPACTS],
-        "contact_fraction": results[:, trajectory.CONTACT_TIME] / durations,
-        "impact_speed": results[:, trajectory.IMPACT_SPEED],
-        "peak_force": results[:, trajectory.PEAK_FORCE],
-        "status": results[:, trajectory.CODE],
+        "max_gap": results[:, record.MAX_GAP],
+        "impacts": results[:, record.IMPACTS],
+        "contact_fraction": results[:, record.CONTACT_TIME] / durations,
+        "impact_speed": results[:, record.IMPACT_SPEED],
+        "peak_force": results[:, record.PEAK_FORCE],
+        "status": results[:, record.CODE],
     }
 
 
@@ -183,8 +183,8 @@ def sample_runs(
         )
         for name, values in samples.items():
             values[part] = motion[:, :, SAMPLES.index(name)]
-        peaks[:, part] = results[:, [trajectory.IMPACT_SPEED, trajectory.PEAK_FORCE]].T
-        codes[part] = results[:, trajectory.CODE]
+        peaks[:, part] = results[:, [record.IMPACT_SPEED, record.PEAK_FORCE]].T
+        codes[part] = results[:, record.CODE]
 
     for_each_chunk(work, len(rows), threads=threads, chunk=chunk, progress=progress)
     impact_speed, peak_force = peaks
@@ -274,8 +274,8 @@ def transits(
         targets = {"distances": lengths, "arrivals": arrival[rows]}
         samples, results = trajectory.integrate(parameters[rows], times[rows], tolerance=tolerance, **targets)
         travelled[rows] = samples[:, 1:, X]
-        peaks[rows] = results[:, [trajectory.IMPACT_SPEED, trajectory.PEAK_FORCE]]
-        codes[rows] = results[:, trajectory.CODE]
+        peaks[rows] = results[:, [record.IMPACT_SPEED, record.PEAK_FORCE]]
+        codes[rows] = results[:, record.CODE]
         return np.count_nonzero(codes[rows] != OK)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=64, progress=progress)

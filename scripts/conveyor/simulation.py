@@ -10,8 +10,8 @@ from .arguments import check_array, check_choice, check_flag, check_number, chec
 from .methods import fixed_step
 from .parameters import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST
 from .solver import trajectory
-from .solver.horizontal import SAMPLES, name_events
 from .solver.model import Conveyor, Start, pack
+from .solver.record import SAMPLES, name_events
 from .solver.status import OK, STATUS
 
 METHODS = ("event", *fixed_step.METHODS)
@@ -87,7 +87,7 @@ class Run:
 
     @cached_property
     def events(self) -> np.ndarray:
-        """Events in order of time: a structured array with the fields `time` (s) and `kind` (see horizontal.EVENTS)."""
+        """Events in order of time: a structured array with the fields `time` (s) and `kind`, see record."""
         parameters = pack(self.conveyor, self.start)
         if self.method != "event":
             return fixed_step.events(parameters, self.duration, self.step, self.method)
@@ -160,7 +160,9 @@ def simulate(
     if method == "event":
         times = np.array([[(1.0 - LAST) * duration, duration]])
         (samples,), (results,) = trajectory.integrate(parameters[None], times, tolerance=tolerance, reuse=reuse)
-        code, event_count, impacts, contact_time, max_gap, work, repeats, impact_speed, peak_force = results.tolist()
+        code, event_count, impacts, contact_time, max_gap, work, repeats, impact_speed, peak_force, *_ = (
+            results.tolist()
+        )
         (x_last, *_), (x_end, vx_end, z_end, vz_end, *_) = samples.tolist()
         status = STATUS[int(code)]
         contact_fraction = contact_time / duration

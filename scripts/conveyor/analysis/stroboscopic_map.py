@@ -16,14 +16,13 @@ import math
 
 import numpy as np
 
-from ..solver import contact, contact_law, plate, polynomial, vertical, workspace
+from ..solver import contact, contact_law, pieces, plate, polynomial, vertical, workspace
 from ..solver.contact_law import row_of
 from ..solver.jit import compiled, compiled_inline, copy
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
-from ..solver.status import IMPACT_LOST, NOT_FINITE, OK, TOO_STIFF
-from ..solver.trajectory import MAX_PIECES
-from ..solver.vertical import CONTACT, FLIGHT, LANDING, LOST, TIME_LIMIT
+from ..solver.status import OK
+from ..solver.vertical import CONTACT, FLIGHT, LANDING, TIME_LIMIT
 from ..solver.workspace import FIRST
 
 # Longest period of a motion that is looked for, in excitation cycles.
@@ -149,6 +148,19 @@ def delta_and_v(motion):
     return -max(motion.q, 0.0), -motion.rate
 
 
+@compiled_inline
+def count_piece(c, motion, piece, features):
+    """Count a Piece that begins with a Motion among the features of its cycle."""
+    if piece.kind == FLIGHT:
+        features[AIRBORNE] += piece.duration
+        if piece.end == LANDING:
+            features[IMPACTS] += 1.0
+            features[LONGEST_FLIGHT] = max(features[LONGEST_FLIGHT], features[AIRBORNE])
+            features[AIRBORNE] = 0.0
+    elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
+        features[CONTACT_TIME] += piece.duration
+
+
 @compiled
 def advance(c, series, state, phase, duration, tangent, features):
     """Advance `state` from a phase of the excitation by a time of at most one cycle; a code of status.STATUS.
@@ -165,31 +177,25 @@ def advance(c, series, state, phase, duration, tangent, features):
     # Numbers of both perturbations lie side by side, so that one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
+    clock = pieces.clock_at(c, phase, 0.0, 0)
     motion = vertical.motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:
         switch_damping(c, tangent, True)
-    for _ in range(MAX_PIECES):
-        piece = vertical.next_piece(c, series, FIRST, motion, duration - motion.t)
-        piece = advance_tangent(c, series, tangent, expansions, motion, piece)
-        if piece.kind == FLIGHT:
-            if piece.end == LOST:
-                return IMPACT_LOST
-            features[AIRBORNE] += piece.duration
-            if piece.end == LANDING:
-                features[IMPACTS] += 1.0
-                features[LONGEST_FLIGHT] = max(features[LONGEST_FLIGHT], features[AIRBORNE])
-                features[AIRBORNE] = 0.0
-        elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
-            features[CONTACT_TIME] += piece.duration
-        motion = vertical.arrive(c, motion, piece, phase)
-        if not vertical.is_finite(motion):
-            return NOT_FINITE
+    while True:
+        piece, after, next_clock, status = pieces.advance(c, series, clock, motion, duration - motion.t, False)
+        shorter = advance_tangent(c, series, tangent, expansions, motion, piece)
+        if shorter.length < piece.length:
+            piece = shorter
+            after, next_clock, status = pieces.end_piece(c, series, clock, motion, piece)
+        if status != OK:
+            return status
+        count_piece(c, motion, piece, features)
+        motion, clock = after, next_clock
         if piece.end == TIME_LIMIT:
             if motion.pulled:
                 switch_damping(c, tangent, False)
             state[0], state[1] = delta_and_v(motion)
             return OK
-    return TOO_STIFF
 
 
 @compiled

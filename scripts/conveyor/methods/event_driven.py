@@ -6,7 +6,7 @@ import numpy as np
 
 from ..packing import as_rows
 from ..solver import trajectory
-from ..solver.horizontal import EVENTS, SAMPLES
+from ..solver.record import EVENT_KINDS, SAMPLES
 
 
 def follow(
@@ -27,5 +27,5 @@ def follow(
     instants, kinds = np.empty((1, room)), np.full((1, room), -1, np.int8)
     options = {"tolerance": tolerance, "reuse": False, "event_times": instants, "event_kinds": kinds}
     (samples,), _ = trajectory.integrate(as_rows(parameters)[None], np.asarray(times)[None], **options)
-    events = ((time, EVENTS[kind]) for time, kind in zip(instants[0], kinds[0], strict=True) if kind >= 0)
+    events = ((time, EVENT_KINDS[kind]) for time, kind in zip(instants[0], kinds[0], strict=True) if kind >= 0)
     return dict(zip(SAMPLES, samples.T, strict=True)), events

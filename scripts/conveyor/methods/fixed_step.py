@@ -26,8 +26,8 @@ from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..parameters import LAST, PARAMETERS
 from ..solver import model, plate
 from ..solver.contact_lanes import LANES, new_memory, place
-from ..solver.horizontal import IMPACT, SAMPLES, SEPARATED, name_events
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers
+from ..solver.record import IMPACT, SAMPLES, SEPARATED, name_events
 from ..solver.status import NOT_FINITE, OK
 from ..solver.status import STATUS as STATUS_NAMES
 from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth, simple_power

@@ -79,9 +79,9 @@ def constants(parameters, tolerance):
 
 
 @compiled
-def workspace():
-    """A workspace for the series of one step."""
-    return np.zeros(FIRST + STEP)
+def workspace(steps=1):
+    """A workspace for the series of one step, or of some steps."""
+    return np.zeros(FIRST + steps * STEP)
 
 
 @compiled_inline

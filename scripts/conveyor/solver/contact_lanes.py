@@ -10,8 +10,8 @@ import numpy as np
 from . import contact, model, plate, workspace
 from .contact_law import expand_harmonic_hertz, expand_hertz
 from .jit import compiled, compiled_inline, compiled_into_callers
+from .pieces import MAX_PIECES
 from .polynomial import ORDER, value_in_lane
-from .trajectory import MAX_PIECES
 
 # Eight lanes take about a tenth less time than four, also in code for registers of four numbers. A NumPy integer, see
 # polynomial.FIRST_ROW.

@@ -1,58 +1,43 @@
-"""The horizontal motion along one contact step: segments of slip in one direction or of stick, and samples in them.
+"""The horizontal motion along one piece of the vertical motion, and samples in it.
 
-The module friction has the closed forms; nothing is integrated. A Segment holds the beginning of a segment.
+A contact step has segments of slip in one direction or of stick. The module friction has the closed forms; nothing is
+integrated. A Segment holds the beginning of a segment.
 """
 
 import math
 from collections import namedtuple
 
-import numpy as np
-
 from . import contact_law, friction, plate, workspace
 from .jit import compiled_inline, compiled_into_callers
 from .model import TENSION_CLIP
 from .polynomial import LEAVE, value
-from .vertical import invert_time
-
-# Columns of a sample.
-X, VX, Z, VZ, CONTACT_FORCE, FRICTION_FORCE = range(6)
-SAMPLES = ("x", "vx", "z", "vz", "contact_force", "friction_force")
-
-# Kinds of events.
-IMPACT, SEPARATED, SLIP_REVERSAL, STICK, SLIP, TENSION_BEGINS, TENSION_ENDS = range(7)
-EVENTS = ("impact", "separation", "slip reversal", "stick", "slip", "tension begins", "tension ends")
+from .record import (
+    CONTACT_FORCE,
+    FRICTION_FORCE,
+    SLIP,
+    SLIP_REVERSAL,
+    STICK,
+    VX,
+    VZ,
+    X,
+    Z,
+    is_sampled,
+    next_sample,
+    next_time,
+    record_event,
+)
+from .status import OK, TOO_MANY_EVENTS
+from .vertical import CONTACT, FLIGHT, invert_time
 
 # Segments in one contact step after which a run ends with "too many events".
 MAX_SEGMENTS = 10_000
 
 # The horizontal motion at a time: position x (m), velocity vx (m/s) and sign sigma of the slip, 0 for stick.
 Horizontal = namedtuple("Horizontal", "x vx sigma")
-# A contact step: the workspace, the first row of its series in it, the vertical.Motion at its beginning, its
-# vertical.Piece, and the time (s) at which it begins.
-Step = namedtuple("Step", "series at motion piece begin")
-# Arrays to fill for one trajectory: `samples`, shape (k, 6), at the `times` (s), shape (k,); times (s) and kinds of the
-# first m events, shape (m,).
-Record = namedtuple("Record", "times samples event_times event_kinds")
 
 # The beginning of a segment: sign of the slip (0 for stick) and the friction coefficient that acts; x (m), ẋ (m/s); its
 # place s in the step and the time t (s) since the step began; sine and cosine of the phase; z, ż, w and v.
 Segment = namedtuple("Segment", "sigma mu x vx s t sine cosine z vz w v")
-
-
-def name_events(times: np.ndarray, kinds: np.ndarray) -> np.ndarray:
-    """Events as a structured array with the fields `time` (s) and `kind` (one of EVENTS), from their numbers."""
-    events = np.empty(len(times), dtype=[("time", np.float64), ("kind", "U14")])
-    events["time"], events["kind"] = times, np.array(EVENTS)[kinds]
-    return events
-
-
-@compiled_inline
-def record_event(record, events, time, kind):
-    """Record the time (s) and kind of an event if there is room. Returns the number of events so far."""
-    if events < record.event_times.size:
-        record.event_times[events] = time
-        record.event_kinds[events] = kind
-    return events + 1
 
 
 @compiled_inline
@@ -111,6 +96,23 @@ def segment_end(c, step, segment, released, fastest, leave):
 
 
 @compiled_into_callers
+def touch_down(c, motion, horizontal):
+    """The Horizontal motion of a part that has just come into contact."""
+    force = contact_law.force(c, motion.w, motion.v)
+    sigma = slip_direction(c, motion.sine, motion.cosine, horizontal.vx, force, c.static_friction)
+    return Horizontal(horizontal.x, horizontal.vx, sigma)
+
+
+@compiled_into_callers
+def sample_flight(c, step, horizontal, tau, sample):
+    """Fill a `sample`, shape (6,), at a time tau (s) after the beginning of a flight."""
+    motion = step.motion
+    sample[X], sample[VX] = slide(c, horizontal.x, horizontal.vx, tau)
+    sample[Z], sample[VZ] = motion.z + (motion.vz - 0.5 * c.gravity * tau) * tau, motion.vz - c.gravity * tau
+    sample[CONTACT_FORCE] = sample[FRICTION_FORCE] = 0.0
+
+
+@compiled_into_callers
 def sample_contact(c, step, segment, tau, sample):
     """Fill a `sample`, shape (6,), at a time tau (s) after the beginning of a contact step, within a segment."""
     series, at, motion = step.series, step.at, step.motion
@@ -139,19 +141,8 @@ def first_segment(c, motion, horizontal):
 
 
 @compiled_into_callers
-def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
-    """Follow the horizontal motion along a contact Step, and sample it.
-
-    Parameters
-    ----------
-    horizontal : the Horizontal motion at its beginning
-    feeding : whether the horizontal motion is wanted
-    record, sampled, events : the Record, and the numbers of samples and events in it so far
-
-    Returns
-    -------
-    horizontal, sampled, events, segments : at the end of the step; after MAX_SEGMENTS segments the run must end
-    """
+def follow_contact(c, step, horizontal, feeding, record):
+    """`follow_horizontal` for a contact step."""
     series, at, motion, piece, begin = step
     segment = first_segment(c, motion, horizontal)
     x, vx, sigma = horizontal
@@ -169,10 +160,10 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
             w, v = value(series, at + workspace.W, s), value(series, at + workspace.V, s)
             phase = motion.theta + c.omega * t
             sine, cosine = math.sin(phase), math.cos(phase)
-        while sampled < record.times.size and begin + t >= record.times[sampled]:
-            sample_contact(c, step, segment, record.times[sampled] - begin, record.samples[sampled])
-            sampled += 1
-        if sampled == record.times.size or not feeding:
+        while begin + t >= next_time(record):
+            tau = next_time(record) - begin
+            sample_contact(c, step, segment, tau, next_sample(record))
+        if is_sampled(record) or not feeding:
             break
         z, vz = plate.surface(c, sine, cosine)
         z, vz = z - w * w, vz - v
@@ -191,11 +182,37 @@ def follow_horizontal(c, step, horizontal, feeding, record, sampled, events):
             leave *= 2.0
         else:
             leave = LEAVE
-            events = record_event(record, events, begin + t, kind)
+            record_event(record, begin + t, kind)
         # The part has the velocity of the plate here, exactly.
         vx = plate.speed(c, sine, cosine)
         segment = Segment(sigma, segment.mu, x, vx, s, t, sine, cosine, z, vz, w, v)
     if feeding and c.static_friction == 0.0:
         # Without friction the part does not take over the error of the moment at which the slip vanishes.
         x, vx = slide(c, horizontal.x, horizontal.vx, piece.duration)
-    return Horizontal(x, vx, sigma), sampled, events, segments
+    status = TOO_MANY_EVENTS if segments == MAX_SEGMENTS and not is_sampled(record) else OK
+    return Horizontal(x, vx, sigma), status
+
+
+@compiled_into_callers
+def follow_horizontal(c, step, horizontal, feeding, record):
+    """Follow the horizontal motion along a piece of the vertical motion, and sample it.
+
+    Parameters
+    ----------
+    step, record : record.Step and record.Record
+    horizontal : the Horizontal motion at the beginning of the piece
+    feeding : whether the horizontal motion is wanted
+
+    Returns
+    -------
+    horizontal, status : the Horizontal motion at the end of the piece, unless the last sample is in it; a code of
+        status.STATUS
+    """
+    if step.piece.kind == CONTACT:
+        return follow_contact(c, step, horizontal, feeding, record)
+    if step.piece.kind == FLIGHT:
+        while step.begin + step.piece.duration >= next_time(record):
+            tau = next_time(record) - step.begin
+            sample_flight(c, step, horizontal, tau, next_sample(record))
+    x, vx = slide(c, horizontal.x, horizontal.vx, step.piece.duration)
+    return Horizontal(x, vx, horizontal.sigma), OK

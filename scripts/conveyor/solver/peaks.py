@@ -4,10 +4,13 @@ Force and rate have closed forms at the ends of a contact step. If the rate chan
 between, the largest force is at a root of the rate along the step's series.
 """
 
+import math
+
 from .contact_law import force, force_rate
 from .jit import compiled, compiled_inline, compiled_into_callers
 from .plate import lift
 from .polynomial import value
+from .repeated_steps import PEAK, kept_numbers
 from .vertical import invert_time
 from .workspace import COSINE, SINE, V, W
 
@@ -74,4 +77,21 @@ def largest_force(c, series, at, piece, first, last):
             high, rate_high = s, rate
             rate_low *= 0.5 if side == -1 else 1.0
             side = -1
+    return largest
+
+
+@compiled_into_callers
+def peak_of_step(c, step, first, last):
+    """Largest F_c/m (m/s²) of a contact step, a record.Step, from `first` to `last` (s) after its beginning."""
+    motion, piece = step.motion, step.piece
+    kept = kept_numbers(step.series, step.at)
+    is_whole = first <= 0.0 and last >= piece.duration
+    largest = kept[PEAK] if is_whole and piece.repeated else math.nan
+    if math.isnan(largest):
+        if is_whole and is_monotonic(c, motion, piece):
+            largest = max(force(c, motion.w, motion.v), force(c, piece.w, piece.v))
+        else:
+            largest = largest_force(c, step.series, step.at, piece, first, last)
+    if is_whole:
+        kept[PEAK] = largest
     return largest

@@ -1,8 +1,7 @@
-"""The vertical motion, piece by piece: a flight, a moment of rest at the plate's surface, or one step of the contact.
+"""One piece of the vertical motion: a flight, a moment of rest at the plate's surface, or one step of the contact.
 
-`next_piece` finds the piece that begins now, and `arrive` finds the motion at its end. Between the two calls
-`trajectory` adds slip, stick and samples, and `stroboscopic_map` adds perturbations. Time counts from the beginning of
-an excitation cycle, at which the excitation has the phase `origin`.
+`next_piece` finds the piece that begins now, and `arrive` finds the motion at its end. The module pieces joins them.
+Time counts from the beginning of an excitation cycle, at which the excitation has the phase `origin`.
 """
 
 import math
@@ -27,8 +26,8 @@ LANDING, TIME_LIMIT, LOST = range(3, 6)
 # (used only for `frictionless` and `clip`). In the air: height z, velocity vz, gap q and its rate (m, m/s).
 Motion = namedtuple("Motion", "t theta sine cosine touching w v pulled z vz q rate")
 # A piece: its kind, its duration (s), the length of a contact step in the variable s, its end, and w, v, sine and
-# cosine there.
-Piece = namedtuple("Piece", "kind duration length end w v sine cosine")
+# cosine there; whether it is a contact step of the last cycle (see repeated_steps).
+Piece = namedtuple("Piece", "kind duration length end w v sine cosine repeated")
 
 
 @compiled
@@ -100,6 +99,7 @@ def cut_step(series, at, length, duration, end):
         polynomial.value(series, at + workspace.V, length),
         polynomial.value(series, at + workspace.SINE, length),
         polynomial.value(series, at + workspace.COSINE, length),
+        False,
     )
 
 
@@ -117,7 +117,7 @@ def fly(c, motion, limit):
     if not tau < math.inf:
         end, tau = (TIME_LIMIT, limit) if tau == math.inf else (LOST, tau)
     phase = motion.theta + c.omega * tau
-    return Piece(FLIGHT, tau, 0.0, end, 0.0, speed, math.sin(phase), math.cos(phase))
+    return Piece(FLIGHT, tau, 0.0, end, 0.0, speed, math.sin(phase), math.cos(phase), False)
 
 
 @compiled_inline
@@ -138,8 +138,8 @@ def graze(c, motion):
         acceleration = c.gravity + plate.lift(c, motion.sine, motion.cosine)
         w = 1e-9 * c.scale_w
         v = math.sqrt(2.0 * acceleration) * w
-        return Piece(GRAZE, v / acceleration, 0.0, NOTHING, w, v, motion.sine, motion.cosine)
-    return Piece(GRAZE, 0.0, 0.0, SEPARATION, 0.0, 0.0, motion.sine, motion.cosine)
+        return Piece(GRAZE, v / acceleration, 0.0, NOTHING, w, v, motion.sine, motion.cosine, False)
+    return Piece(GRAZE, 0.0, 0.0, SEPARATION, 0.0, 0.0, motion.sine, motion.cosine, False)
 
 
 @compiled_into_callers
@@ -150,14 +150,14 @@ def press(c, series, at, motion, length, limit):
         return cut_step(series, at, invert_time(series, at, length, limit), limit, TIME_LIMIT)
     sine = polynomial.value(series, at + workspace.SINE, length)
     cosine = polynomial.value(series, at + workspace.COSINE, length)
-    return Piece(CONTACT, lapse, length, end, w, v, sine, cosine)
+    return Piece(CONTACT, lapse, length, end, w, v, sine, cosine, False)
 
 
 @compiled_into_callers
 def next_piece(c, series, at, motion, limit):
     """The Piece that begins with a Motion and takes at most `limit` (s).
 
-    c, series, at : contact.Constants, a contact.workspace, and the row in it at which a contact step begins
+    c, series, at : contact.Constants, a workspace, and the row in it at which a contact step begins
     """
     if not motion.touching:
         return fly(c, motion, limit)

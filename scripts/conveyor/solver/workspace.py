@@ -16,4 +16,6 @@ FIRST = HARMONICS + MOST_HARMONICS * WAVE
 # divided by its amplitude. The last two belong to plates with harmonics: their velocities normal to the track and along
 # it, divided by the amplitudes of the fundamental.
 W, T, V, SINE, COSINE, SQUARE, SPRING, LIFT_W, NORMAL, ALONG = range(0, 10 * SIZE, SIZE)
-STEP = 10 * SIZE
+# A row of a step for its beginning and its end, see repeated_steps.
+BEGIN_AND_END = 10 * SIZE
+STEP = 11 * SIZE

@@ -10,8 +10,8 @@ from scipy.special import gamma
 from conveyor import Conveyor, Start, ensemble, simulate
 from conveyor.methods import fixed_step
 from conveyor.methods.fixed_step import IMPACT_SPEED, PEAK_FORCE
-from conveyor.solver.horizontal import SAMPLES
 from conveyor.solver.model import PSI0, STIFFNESS, VZ0, pack
+from conveyor.solver.record import SAMPLES
 
 # A contact that stays closed (p = 1, a_z < g), smooth in time.
 LINEAR = Conveyor(acceleration=30.0, exponent=1.0, stiffness=3e3, psi0=0.4)

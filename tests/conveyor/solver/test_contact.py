@@ -7,8 +7,9 @@ import pytest
 
 from conveyor import Conveyor, Start
 from conveyor.solver import contact, friction, vertical
-from conveyor.solver.horizontal import Segment, Step
+from conveyor.solver.horizontal import Segment
 from conveyor.solver.model import pack
+from conveyor.solver.record import Step
 from conveyor.solver.workspace import FIRST, SPRING
 
 
@@ -22,7 +23,7 @@ def segment(sigma, mu):
 
 
 def piece(duration, length):
-    return vertical.Piece(vertical.CONTACT, duration, length, contact.NOTHING, w=0.0, v=0.0, sine=0.0, cosine=1.0)
+    return vertical.Piece(vertical.CONTACT, duration, length, contact.NOTHING, 0.0, 0.0, 0.0, 1.0, False)
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.5])

@@ -9,7 +9,7 @@ import pytest
 from conveyor import Conveyor, Start
 from conveyor.solver import contact, contact_lanes, model, polynomial
 from conveyor.solver.contact_lanes import COSINE, END, LENGTH, SERIES, SINE, STEPS, TIME, V, W
-from conveyor.solver.trajectory import MAX_PIECES
+from conveyor.solver.pieces import MAX_PIECES
 from conveyor.solver.workspace import FIRST
 
 TOLERANCES = (1e-6, 1e-8, 1e-12)

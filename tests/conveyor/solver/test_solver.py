@@ -13,6 +13,7 @@ from scipy.linalg import expm
 from conveyor import Conveyor, Start, simulate
 from conveyor.solver import trajectory as trajectory_module
 from conveyor.solver.model import conveyor_motion, pack
+from conveyor.solver.pieces import MAX_PIECES
 
 AT_REST = Conveyor(acceleration=0.0)
 REFERENCE = {
@@ -247,7 +248,7 @@ def test_a_contact_that_is_too_stiff_is_a_status():
     run = simulate(Conveyor(damping=1e6, mass=1e-3), Start("conveyor"), duration=0.1)
     assert run.status == "contact too stiff"
     assert math.isnan(run.z_end)
-    assert run.work <= trajectory_module.MAX_PIECES
+    assert run.work <= MAX_PIECES
 
 
 @pytest.mark.parametrize(

@@ -63,7 +63,7 @@ class AttractingOrbits(NamedTuple):
     """m periodic orbits, each with a trapping region. The orbits of one conveyor are adjacent."""
 
     conveyors: np.ndarray  # float64, shape (m, 16), packed, their phases and initial conditions zero
-    centres: np.ndarray  # float64, shape (m, 2), δ (m) and Y (m/s) of a point at trajectory.BEGIN_OF_CYCLE
+    centres: np.ndarray  # float64, shape (m, 2), δ (m) and Y (m/s) of a point at pieces.BEGIN_OF_CYCLE
     factors: np.ndarray  # float64, shape (m, 3), upper triangle of R: the trapping region is |R (x - centre)| ≤ 1
     periods: np.ndarray  # int64, shape (m,), excitation cycles
     flights: np.ndarray  # float64, shape (m,), s, longest flight
@@ -73,7 +73,7 @@ class ChaoticSets(NamedTuple):
     """m chaotic sets. The sets of one conveyor are adjacent."""
 
     conveyors: np.ndarray  # float64, shape (m, 16), packed, their phases and initial conditions zero
-    low: np.ndarray  # float64, shape (m, 2), lower corner of the boxes: δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE
+    low: np.ndarray  # float64, shape (m, 2), lower corner of the boxes: δ (m), v (m/s) at pieces.BEGIN_OF_CYCLE
     size: np.ndarray  # float64, shape (m, 2), of a box
     cells: np.ndarray  # bool, shape (m, BOXES, BOXES): visited, or next to one that is
 

@@ -35,7 +35,7 @@ BEFORE_FIRST_CYCLE = -1
 class Trajectories(NamedTuple):
     """How n trajectories ended; every field has the length n."""
 
-    states: np.ndarray  # float64, shape (n, 2), the last δ (m) and v (m/s), at trajectory.BEGIN_OF_CYCLE
+    states: np.ndarray  # float64, shape (n, 2), the last δ (m) and v (m/s), at pieces.BEGIN_OF_CYCLE
     outcomes: np.ndarray  # int64, PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED or FAILED
     periods: np.ndarray  # int64, excitation cycles; 0 for none
     flights: np.ndarray  # float64, s, longest flight

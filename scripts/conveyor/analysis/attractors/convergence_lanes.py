@@ -17,7 +17,7 @@ from ...solver import contact, contact_lanes, plate, vertical
 from ...solver.contact_lanes import COSINE, END, LANES, LENGTH, NONE, SINE, STEPS, TIME, V, W
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
-from ...solver.trajectory import BEGIN_OF_CYCLE, MAX_PIECES, time_to_next_cycle
+from ...solver.pieces import BEGIN_OF_CYCLE, MAX_PIECES, time_to_next_cycle
 from ...solver.vertical import FLIGHT, GRAZE, LANDING, LOST, TIME_LIMIT, Motion, Piece
 from ...solver.workspace import FIRST
 from ..stroboscopic_map import delta_and_v
@@ -124,7 +124,7 @@ def compiled_for(harmonics):
                     continue
                 i, c, past, counts = trajectories[lane], constants[lane], histories[lane], counters[lane]
                 motion = stopped_motion(lane, steps)
-                piece = Piece(GRAZE, 0.0, 0.0, TIME_LIMIT, 0.0, 0.0, 0.0, 0.0)
+                piece = Piece(GRAZE, 0.0, 0.0, TIME_LIMIT, 0.0, 0.0, 0.0, 0.0, False)
                 if i != NONE:
                     contact_lanes.copy_series(steps, lane, series, FIRST)
                     piece = vertical.press(c, series, FIRST, motion, steps[LENGTH, lane], steps[END, lane] - motion.t)

@@ -10,7 +10,7 @@ import numpy as np
 from ...packing import as_rows
 from ...solver import contact
 from ...solver.model import PSI0
-from ...solver.trajectory import BEGIN_OF_CYCLE
+from ...solver.pieces import BEGIN_OF_CYCLE
 from .. import stroboscopic_map
 from . import convergence_lanes
 from .attractor_table import NO_ATTRACTORS, AttractorTable
@@ -45,7 +45,7 @@ def follow(
 ) -> Trajectories:
     """Follow a trajectory on each of n conveyors, shape (n, 16), to its attractor, for at most `cycles`.
 
-    states : float64, shape (n, 2), δ (m), v (m/s) at trajectory.BEGIN_OF_CYCLE
+    states : float64, shape (n, 2), δ (m), v (m/s) at pieces.BEGIN_OF_CYCLE
     strobes : float64, shape (n, cycles, 2), filled with the states after each cycle
     """
     at_top = np.array(parameters)

@@ -19,8 +19,8 @@ from ... import linear_algebra
 from ...solver import contact, contact_law
 from ...solver.jit import compiled
 from ...solver.model import PSI0
+from ...solver.pieces import BEGIN_OF_CYCLE
 from ...solver.status import OK
-from ...solver.trajectory import BEGIN_OF_CYCLE
 from .. import stroboscopic_map
 from ..dimensionless_groups import length_and_speed_units
 from . import convergence, sampling
@@ -166,8 +166,8 @@ def find_trapping_region(
 ) -> tuple[tuple[np.ndarray, np.ndarray] | None, int]:
     """The largest trapping region of a point of an orbit that at most about `most` excitation cycles show.
 
-    parameters : float64, shape (16,), with the phase trajectory.BEGIN_OF_CYCLE
-    state : δ (m), v (m/s), shape (2,), at trajectory.BEGIN_OF_CYCLE
+    parameters : float64, shape (16,), with the phase pieces.BEGIN_OF_CYCLE
+    state : δ (m), v (m/s), shape (2,), at pieces.BEGIN_OF_CYCLE
 
     Returns
     -------

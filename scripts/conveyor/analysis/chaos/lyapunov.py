@@ -17,8 +17,8 @@ from ...parameters import DEFAULT_TOLERANCE
 from ...solver import contact, contact_law
 from ...solver.jit import compiled
 from ...solver.model import FREQUENCY, PSI0
+from ...solver.pieces import BEGIN_OF_CYCLE
 from ...solver.status import NOT_FINITE, OK, STATUS
-from ...solver.trajectory import BEGIN_OF_CYCLE
 from .. import stroboscopic_map
 from ..dimensionless_groups import length_and_speed_units
 from ..stroboscopic_map import MAX_PERIOD
@@ -98,7 +98,7 @@ def lyapunov_spectrum(
     parameters : from `parameter_table`, of any shape with n rows
     states : float64, shape (n, 2), stroboscopic states to begin with (default: the initial conditions in `parameters`);
         NaN for a motion that failed
-    begin_of_cycle : whether `states` are those at trajectory.BEGIN_OF_CYCLE, not at ψ0
+    begin_of_cycle : whether `states` are those at pieces.BEGIN_OF_CYCLE, not at ψ0
     transient : excitation cycles that are discarded at the beginning, up to 1e6
     cycles, blocks : mean over `blocks` (2 to 1e4) blocks of `cycles` (1 to 1e6) excitation cycles
     tolerance, threads, progress : as in `sweep`
@@ -167,7 +167,7 @@ def lyapunov_spectrum(
 def spectrum_from(
     parameters: np.ndarray, states: np.ndarray, cycles: int, *, tolerance: float, threads: int = 1
 ) -> Columns:
-    """Exponents of motions over a number of cycles, from `states`, shape (n, 2), at trajectory.BEGIN_OF_CYCLE."""
+    """Exponents of motions over a number of cycles, from `states`, shape (n, 2), at pieces.BEGIN_OF_CYCLE."""
     counted = {"transient": 0, "cycles": cycles // BLOCKS, "blocks": BLOCKS}
     return lyapunov_spectrum(parameters, states, begin_of_cycle=True, **counted, tolerance=tolerance, threads=threads)
 
@@ -178,7 +178,7 @@ def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threa
     Parameters
     ----------
     parameters : float64, shape (n, 16), rows as from model.pack
-    states : float64, shape (n, 2), stroboscopic states at trajectory.BEGIN_OF_CYCLE
+    states : float64, shape (n, 2), stroboscopic states at pieces.BEGIN_OF_CYCLE
     tolerance, threads : as in `sweep`
     """
     sign = np.zeros(len(parameters), dtype=np.int64)

@@ -9,7 +9,7 @@ from ...packing import as_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_STEP, DEFAULT_TOLERANCE
 from ...solver import contact, trajectory
-from ...solver.horizontal import SAMPLES
+from ...solver.record import SAMPLES
 from .. import stroboscopic_map
 
 
@@ -74,7 +74,7 @@ def finite_difference_exponent(
     ----------
     parameters, perturbed : tables, shape (n,): the trajectories and their neighbours
     epsilon : size of the perturbation, in the unit of the perturbed parameter
-    output : the signal that is compared, one of horizontal.SAMPLES
+    output : the signal that is compared, one of record.SAMPLES
     last, samples : the mean is taken over `samples` equidistant times in the last part of the run
     duration, method, tolerance, step, threads, progress : as in `sweep`
     """

@@ -8,7 +8,7 @@ from conveyor.analysis.attractors import attractor_table, convergence, sampling,
 from conveyor.analysis.attractors.search import find_attractors
 from conveyor.solver import contact
 from conveyor.solver.model import PARAMETERS, PSI0, pack
-from conveyor.solver.trajectory import BEGIN_OF_CYCLE
+from conveyor.solver.pieces import BEGIN_OF_CYCLE
 
 TOLERANCE = 1e-6
 
