@@ -5,12 +5,12 @@ import math
 import numpy as np
 
 from . import contact, pieces, repeated_steps
+from .arrivals import first_block, has_arrived, record_arrivals, skip_blocks
 from .horizontal import Horizontal, follow_horizontal, touch_down
 from .jit import compiled, no_refcount
 from .model import VZ0, Z0
 from .record import MAX_GAP, RESULTS, SAMPLES, Record, Step, count_piece, end_record, is_sampled, record_end
 from .status import OK
-from .track import first_block, has_arrived, record_arrivals, skip_blocks
 from .vertical import FLIGHT
 
 
