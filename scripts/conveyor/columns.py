@@ -19,6 +19,12 @@ class Columns(Mapping[str, np.ndarray]):
     """Arrays of one shape, or of shapes that begin alike, as items or attributes: columns["z_end"] or columns.z_end.
 
     Names, units and words are those of the tables that the pipeline writes.
+
+    Examples
+    --------
+    >>> runs = sweep(parameter_table(Conveyor(), z0=[0.0, 3e-4]), duration=0.1)
+    >>> runs.impacts.tolist(), runs.units["z_end"]
+    ([4, 5], 'm')
     """
 
     def __init__(self, arrays: Mapping[str, np.ndarray]):

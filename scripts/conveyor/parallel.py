@@ -47,6 +47,15 @@ def for_each_chunk(
     for another one. `work` must write only to its range; then the result depends neither on `threads` nor on `chunk`.
     It may return the number of its points that have failed. An exception in `work` ends the loop and is raised here.
     `progress` is the label of a progress bar on stderr with rate, time left and failed points; None shows no bar.
+
+    Examples
+    --------
+    >>> squares = np.zeros(5)
+    >>> def work(begin, end):
+    ...     squares[begin:end] = np.arange(begin, end) ** 2
+    >>> for_each_chunk(work, len(squares), threads=2, chunk=2)
+    >>> squares.tolist()
+    [0.0, 1.0, 4.0, 9.0, 16.0]
     """
     ranges = list(ranges_of(count, threads, chunk))
     # Each thread takes its next range itself; a thread that hands out ranges would cost as much as a few points.

@@ -71,7 +71,13 @@ TANGENTIAL = ("friction", "phase_shift", "static_friction")
 
 
 def normal_gravity(model: Mapping[str, float]) -> float:
-    """Gravity normal to the track, g cos α (m/s²); a model without an inclination has a level track."""
+    """Gravity normal to the track, g cos α (m/s²); a model without an inclination has a level track.
+
+    Examples
+    --------
+    >>> normal_gravity({"gravity": 9.81})
+    9.81
+    """
     return model["gravity"] * math.cos(model.get("inclination", 0.0))
 
 

@@ -39,7 +39,13 @@ class Lines(tqdm):
 
 
 def progress_bar(items=None, *, total: int | None = None, label: str | None, unit: str = "points") -> tqdm:
-    """Progress over `items`, or over `total` units that `update` counts; nothing is shown without a label."""
+    """Progress over `items`, or over `total` units that `update` counts; nothing is shown without a label.
+
+    Examples
+    --------
+    >>> [2 * number for number in progress_bar([1, 2, 3], label=None)]
+    [2, 4, 6]
+    """
     options = {"desc": label, "unit": f" {unit}", "disable": label is None, "file": sys.stderr}
     if sys.stderr.isatty():
         return tqdm(items, total=total, mininterval=SECONDS, dynamic_ncols=True, **options)

@@ -47,7 +47,7 @@ def prose_in(file: Path) -> str:
     found = [ast.get_docstring(node) or "" for node in ast.walk(ast.parse(text)) if isinstance(node, documented)]
     tokens = tokenize.generate_tokens(io.StringIO(text).readline)
     found += [token.string for token in tokens if token.type == tokenize.COMMENT]
-    return re.sub(r"^\s*>>>.*$", "", "\n".join(found), flags=re.MULTILINE)
+    return re.sub(r"^\s*(>>>|\.\.\.).*$", "", "\n".join(found), flags=re.MULTILINE)
 
 
 MODULES: dict[str, list[Path]] = {}

@@ -53,7 +53,14 @@ def groups_of_contact(
 
 
 def contact_of_groups(group: ArrayLike, loss: ArrayLike, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness k_c (N/m^p) and damping d_c (N s/m) from K and L: the inverse of `groups_of_contact`."""
+    """Stiffness k_c (N/m^p) and damping d_c (N s/m) from K and L: the inverse of `groups_of_contact`.
+
+    Examples
+    --------
+    >>> stiffness, damping = contact_of_groups(72.15, 0.2463, parameter_table(Conveyor()))
+    >>> round(float(stiffness), -4), round(float(damping), 3)  # N/m^p, N s/m
+    (500000.0, 0.3)
+    """
     unit, unit_of_damping, exponent = units(parameters)
     group = np.asarray(group)
     return unit * group, unit_of_damping * np.asarray(loss) * power(group, 1.0 / (exponent + 1.0))

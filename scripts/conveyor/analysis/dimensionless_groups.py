@@ -185,6 +185,13 @@ def derivatives_of_groups(moved: str, parameters: np.ndarray, by: np.ndarray) ->
     moved : a name in GROUP_OF
     parameters : a row of a table of parameters, at which the equation holds
     by : derivatives of the group of `moved`, Γ or z0 ω²/g, by all GROUP_NAMES, shape (7,); its own 0
+
+    Examples
+    --------
+    >>> by = np.array([0.0, 0.37, 0.0, 0.0, 0.0, 0.0, 0.0])  # Γ = 0.37 D + constant
+    >>> derivatives = derivatives_of_groups("acceleration", parameter_table(Conveyor()), by)
+    >>> round(derivatives["damping"], 1)  # m/s² per N s/m
+    79.4
     """
     of, own = slopes(as_rows(parameters)), GROUP_OF[moved]
     return {
@@ -193,13 +200,19 @@ def derivatives_of_groups(moved: str, parameters: np.ndarray, by: np.ndarray) ->
 
 
 def derivatives_by_groups(moved: str, parameters: np.ndarray, by: Mapping[str, float]) -> np.ndarray:
-    """Derivatives of the group of `moved` by all GROUP_NAMES, shape (7,), its own 0: the inverse of the function above.
+    """Derivatives of the group of `moved` by all GROUP_NAMES, shape (7,); the inverse of `derivatives_of_groups`.
 
     Parameters
     ----------
     moved : a name in GROUP_OF
     parameters : a row of a table of parameters, at which the equation holds
     by : derivatives of `moved` by the other parameters in PARAMETER_OF
+
+    Examples
+    --------
+    >>> row, by = parameter_table(Conveyor()), np.array([0.0, 0.37, 0.0, 0.0, 0.0, 0.0, 0.0])
+    >>> derivatives_by_groups("acceleration", row, derivatives_of_groups("acceleration", row, by)).round(12).tolist()
+    [0.0, 0.37, 0.0, 0.0, 0.0, 0.0, 0.0]
     """
     of, own = slopes(as_rows(parameters)), GROUP_OF[moved]
     derivatives = np.zeros(len(GROUP_NAMES))

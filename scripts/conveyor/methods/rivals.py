@@ -37,7 +37,13 @@ def installed_version(integrator: str) -> str | None:
 
 
 def record_rivals() -> dict[str, dict[str, str]]:
-    """Version and options of every integrator, for the provenance."""
+    """Version and options of every integrator, for the provenance.
+
+    Examples
+    --------
+    >>> record_rivals()["heyoka"]["options"].split(":")[0]
+    'Taylor'
+    """
     return {
         name: {"version": installed_version(name) or "not installed", "options": f"{rival.method}: {rival.options}"}
         for name, rival in RIVALS.items()

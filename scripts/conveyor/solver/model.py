@@ -34,7 +34,13 @@ TENSION_ALLOW, TENSION_FRICTIONLESS, TENSION_CLIP = range(len(TENSION_MODES))
 
 
 def check_parameter(name: str, value: float) -> float:
-    """Return `value` as a float; raise ValueError that names the parameter, its unit and its range if it is outside."""
+    """Return `value` as a float; raise ValueError that names the parameter, its unit and its range if it is outside.
+
+    Examples
+    --------
+    >>> check_parameter("frequency", 50)
+    50.0
+    """
     low, high = RANGES[name]
     if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise ValueError(f"{name} must be a number in {UNITS[name]}, got {value!r}")
@@ -191,7 +197,14 @@ def unpack(parameters: np.ndarray) -> tuple[Conveyor, Start]:
 
 
 def conveyor_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarray]:
-    """Position and velocity of the plate (Eqs. 3, 4, 10) at `times` (s): x, z in m; vx, vz in m/s; same shape."""
+    """Position and velocity of the plate (Eqs. 3, 4, 10) at `times` (s): x, z in m; vx, vz in m/s; same shape.
+
+    Examples
+    --------
+    >>> plate = conveyor_motion(Conveyor(acceleration=40.0), np.array([0.0, 0.01]))  # at its lowest and highest point
+    >>> (1e6 * plate["z"]).round(1).tolist()  # µm
+    [-84.3, 84.3]
+    """
     omega = 2.0 * math.pi * conveyor.frequency
     phase = omega * np.asarray(times, dtype=np.float64) + conveyor.psi0
     a_z = conveyor.acceleration * math.sin(conveyor.angle)

@@ -47,10 +47,20 @@ def distinct_rows(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def find_places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """The rows of a table that belong to each of the `wanted` conveyors, shape (n, 16): int64, shape (n, 2).
+    """Where a table holds the rows of some conveyors: int64, shape (n, 2).
 
-    conveyors : float64, shape (m, 16), the conveyor of each row of the table, equal ones side by side
-    Returns the first row, and the one behind the last; 0, 0 for a conveyor that the table does not have.
+    Returns the first row and the row behind the last; 0, 0 for a conveyor that the table does not have.
+
+    Parameters
+    ----------
+    conveyors : the conveyor of each row, shape (m,), as from `distinct_conveyors`; equal ones are adjacent
+    wanted : the conveyors to look up, shape (n,)
+
+    Examples
+    --------
+    >>> conveyors, _ = distinct_conveyors(parameter_table(Conveyor(), acceleration=[20.0, 30.0, 40.0]))
+    >>> find_places(conveyors[[0, 1, 1]], conveyors).tolist()
+    [[0, 1], [1, 3], [0, 0]]
     """
     places = {}
     for k, row in enumerate(conveyors):
@@ -79,7 +89,7 @@ class ChaoticSets(NamedTuple):
 
 
 class AttractorTable(NamedTuple):
-    """The known attractors of some conveyors."""
+    """The known attractors of some conveyors, from `find_attractors`."""
 
     orbits: AttractingOrbits
     chaotic: ChaoticSets

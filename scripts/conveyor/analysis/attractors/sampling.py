@@ -21,11 +21,17 @@ SHORT_SEARCH = 400  # cycles in which most trajectories become periodic that do 
 
 
 def sampled_initial_conditions(parameters: np.ndarray) -> np.ndarray:
-    """Initial conditions of one conveyor, a row of a table: (δ, v) in the air at the plate's top, shape (SAMPLES, 2).
+    """Initial conditions of one conveyor, a row of a table: δ (m) and v (m/s), shape (SAMPLES, 2).
 
-    To jump over one or two cycles a part leaves the plate with about the plate's speed plus half of g T at most. This
-    sum bounds the velocities, and the height that a part reaches with it bounds the heights. The points are an R2
-    sequence.
+    The parts are in the air while the plate is at its highest point. To jump over one or two cycles a part leaves the
+    plate with about the plate's speed plus half of g T at most. This sum bounds the velocities, and the height that a
+    part reaches with it bounds the heights. The points are an R2 sequence (Roberts 2018).
+
+    Examples
+    --------
+    >>> states = sampled_initial_conditions(parameter_table(Conveyor()))
+    >>> states.shape, bool((states[:, 0] <= 0.0).all())
+    ((32, 2), True)
     """
     c = contact.constants(as_rows(parameters), 1e-8)
     fastest = math.pi * (c.gravity + c.bounds.lift) / c.omega

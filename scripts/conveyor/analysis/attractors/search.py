@@ -29,15 +29,36 @@ def find_attractors(
     threads: int = 1,
     progress: str | None = None,
 ) -> AttractorTable:
-    """The attractors of the conveyors in a table of `parameters`; the initial conditions there do not matter.
+    """The attractors that trajectories from sampled initial conditions lead to, on each conveyor of a table.
+
+    `classify` is faster with them. They are numerical results: an attractor with a small basin may be missing.
 
     Parameters
     ----------
-    cycles : excitation cycles after which a search for a period ends, as in labels.classify
-    most : excitation cycles that end the search for the chaotic sets of a conveyor, and the search for its orbits; the
-        rest is not found. At most, and by default, SEARCHES times `cycles`
+    parameters : from `parameter_table`, of any shape; their initial conditions do not matter
+    cycles : excitation cycles after which the search for a period ends, as in `classify`
     orbits : whether trapping regions of periodic orbits are wanted; each takes some thousand cycles
-    tolerance, threads, progress : as in labels.classify
+    most : excitation cycles that end the search for the chaotic sets of a conveyor, and the search for its orbits; at
+        most, and by default, SEARCHES times `cycles`
+    tolerance, threads, progress : as in `classify`
+
+    Returns
+    -------
+    AttractorTable with the attractors of each distinct conveyor
+
+    Raises
+    ------
+    ValueError
+        parameters are no table
+
+    Examples
+    --------
+    >>> parameters = parameter_table(Conveyor(), acceleration=40.0, z0=[0.0, 3e-4])
+    >>> attractors = find_attractors(parameters, cycles=400)
+    >>> attractors.orbits.periods.tolist(), len(attractors.chaotic.conveyors)
+    ([1, 1], 0)
+    >>> classify(parameters, attractors=attractors).state.tolist()
+    ['first', 'second']
     """
     conveyors, _ = distinct_rows(rows_and_shape(parameters)[0])
     most = min(SEARCHES * cycles, math.inf if most is None else most)

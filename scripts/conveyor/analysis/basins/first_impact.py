@@ -59,7 +59,16 @@ def first_impacts(parameters: np.ndarray) -> FirstImpact:
 
 
 def on_conveyor(parameters: np.ndarray, impacts: FirstImpact) -> np.ndarray:
-    """The table of the same motions, begun on the conveyor with the phases and velocities of their first impacts."""
+    """The table of the same motions, begun on the conveyor with the phases and velocities of their first impacts.
+
+    parameters, impacts : a table of the shape (n,), and the result of `first_impacts` for it
+
+    Examples
+    --------
+    >>> parameters = parameter_table(Conveyor(acceleration=40.0), z0=[1e-3])
+    >>> on_conveyor(parameters, first_impacts(parameters))["vz0"].round(3).tolist()  # m/s
+    [-0.138]
+    """
     mapped = parameters.copy()
     mapped["psi0"] = impacts.phase % (2.0 * math.pi)
     mapped["z0"] = math.nan

@@ -46,6 +46,14 @@ def hyperbola_profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarra
     Returns
     -------
     parameters, errors : float64, shape (k, 3), A (m²/s²), B (m/s²) and C (m); and mean squared errors, m², shape (k,)
+
+    Examples
+    --------
+    >>> amplitudes = np.linspace(25.0, 50.0, 20)
+    >>> heights = critical_height(amplitudes, Hyperbola(5e-3, 1.0, -5e-5))
+    >>> parameters, errors = hyperbola_profile(amplitudes, heights, np.array([0.0, 1.0]))
+    >>> parameters[:, 0].round(5).tolist(), bool(errors[1] < errors[0])
+    ([0.00472, 0.005], True)
     """
     x = 1.0 / (np.asarray(b, dtype=np.float64)[:, None] + acceleration)
     centred = x - x.mean(axis=1, keepdims=True)
@@ -93,7 +101,7 @@ def fit_hyperbola(acceleration: np.ndarray, height: np.ndarray, bounds: tuple[fl
 def fit_hyperbola_by_pymoo(
     acceleration: np.ndarray, height: np.ndarray, bounds: dict[str, tuple[float, float]], seed: int, evaluations: int
 ) -> Fit:
-    """Fit by CMA-ES (pymoo), which learns the direction of the narrow, curved valley; same seed, same result.
+    """Fit by CMA-ES (Hansen 2016, in pymoo), which learns the direction of the narrow, curved valley.
 
     ValueError if the data or the bounds cannot be used.
 
@@ -101,7 +109,17 @@ def fit_hyperbola_by_pymoo(
     ----------
     acceleration, height : data, m/s² and m, shape (n,), n ≥ 3
     bounds : low and high of "A" (m²/s²), "B" (m/s²) and "C" (m); see `fit_hyperbola` for B
+    seed : of the random numbers, 0 or above; the same seed gives the same result
     evaluations : largest number of triples to try
+
+    Examples
+    --------
+    >>> amplitudes = np.linspace(25.0, 50.0, 20)
+    >>> heights = critical_height(amplitudes, Hyperbola(5e-3, 1.0, -5e-5))
+    >>> bounds = {"A": (1e-3, 1e-2), "B": (-10.0, 10.0), "C": (-1e-4, 0.0)}
+    >>> fit = fit_hyperbola_by_pymoo(amplitudes, heights, bounds, seed=1, evaluations=2000)
+    >>> round(fit.parameters.A, 6), round(fit.parameters.B, 4)
+    (0.005, 1.0)
     """
     acceleration, height = check_data(acceleration, height, bounds["B"])
     low, high = np.array([bounds[name] for name in Hyperbola._fields], dtype=np.float64).T

@@ -240,8 +240,23 @@ def follow_grazing_curve(
 ) -> BifurcationCurve:
     """Follow the amplitude at which an orbit touches the plate (a grazing) in both directions, in equal steps of λ.
 
-    The curve ends with "lost" where Newton's iteration finds no touch near the last one. The other parameters are those
-    of `follow`. Points of codimension two are not searched for.
+    The curve ends with "lost" where no touch is found near the last one. Points of codimension two are not searched
+    for.
+
+    Parameters
+    ----------
+    point : a grazing, at λ = 0
+    path, amplitude, reach : as in `follow_bifurcation_curve`
+    step : in λ
+
+    Examples
+    --------
+    >>> groups = groups_of(parameter_table(Conveyor()))
+    >>> grazing = find_bifurcation("grazing", 1, np.array([3.480, 0.9686]), groups)
+    >>> path = ParameterPath(damping=1.0, stiffness=0.0)
+    >>> curve = follow_grazing_curve(grazing, path, (0.1, 5.0), (-0.5, 0.5), step=0.1)
+    >>> [end.value for end in curve.ends], len(curve.points)
+    (['limit', 'limit'], 11)
     """
     path_points, ends, equations = [], [], CurveEquations(point, path)
     for direction, end in ((-1.0, reach[0]), (1.0, reach[1])):

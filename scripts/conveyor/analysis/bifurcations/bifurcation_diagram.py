@@ -16,13 +16,26 @@ def follow_attractor(
     Parameters
     ----------
     parameters : table, shape (n,), in order; only the first initial condition counts
-    transient : excitation cycles after each step that are not recorded
-    strobes : excitation cycles that are recorded
+    transient : excitation cycles on each conveyor before the recorded ones, up to 1e6
+    strobes : excitation cycles that are recorded, 1 to 1e6
     tolerance : of the contact steps
 
     Returns
     -------
-    states, status : δ (m) and v (m/s) at the phase ψ0, shape (n, strobes, 2), and str, shape (n,); behind a failure NaN
+    states : float64, shape (n, strobes, 2), δ (m) and v (m/s) at the phase ψ0; NaN from a failure on
+    status : str, shape (n,), "ok" or why the motion was lost
+
+    Raises
+    ------
+    ValueError, TypeError
+        name the argument that cannot be used
+
+    Examples
+    --------
+    >>> parameters = parameter_table(Conveyor(), acceleration=[50.0, 57.0], z0=3e-4)
+    >>> states, status = follow_attractor(parameters, transient=500, strobes=2, tolerance=1e-10)
+    >>> (1e6 * states[:, :, 0]).round(1).tolist()  # µm: the period has doubled
+    [[-600.9, -600.9], [-783.4, -476.1]]
     """
     (parameters, _), tolerance = check_rows(parameters), check_tolerance(tolerance)
     check_count("transient", transient, 0, MOST_CYCLES)

@@ -68,7 +68,21 @@ def linearise(groups: Groups, state: np.ndarray, period: int, psi0: float = 0.0)
 
 
 def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | None:
-    """Scaled (x, y) at the phase 0 of a motion whose δ (m) and v (m/s) at the phase ψ0 are `state`, or None."""
+    """The scaled state (x, y) of a motion when the phase of the excitation is next 0, shape (2,).
+
+    None where the motion is lost.
+
+    Parameters
+    ----------
+    parameters : a row of a table
+    state : δ (m) and v (m/s) at the phase ψ0, shape (2,)
+
+    Examples
+    --------
+    >>> orbit = periodic_orbit(Conveyor(acceleration=40.0), Start(z=3e-4))
+    >>> at_phase_zero(parameter_table(Conveyor(acceleration=40.0)), orbit.state).round(3).tolist()
+    [-5.495, 0.686]
+    """
     groups, (length, velocity) = groups_of(parameters), length_and_speed_units(parameters)
     psi0 = float(as_rows(parameters)[PSI0])
     c = contact.constants(packed(groups, psi0), TOLERANCE)
@@ -147,6 +161,12 @@ def differentiate_unknowns(point: BifurcationPoint) -> np.ndarray | None:
 
     They serve to guess the unknowns for other groups: they have four correct digits in short orbits, and fewer in long
     ones. The last row is that of Γ. None where the system is singular (a codimension-two point) or cannot be evaluated.
+
+    Examples
+    --------
+    >>> fold = find_bifurcation("fold", 1, np.array([-3.41, 1.61, 0.508]), groups_of(parameter_table(Conveyor())))
+    >>> differentiate_unknowns(fold)[-1, 0].round(2).item()  # ∂Γ/∂D
+    0.37
     """
     values = np.array(point.groups[1:4])
     scales = np.where(values > 0.0, values, 1.0)
@@ -174,6 +194,14 @@ def touching_point(groups: Groups, state: np.ndarray, period: int) -> np.ndarray
     groups : of the conveyor, with Γ
     state : scaled (x, y) of the orbit at the phase 0, shape (2,)
     period : excitation cycles of the orbit
+
+    Examples
+    --------
+    >>> row, orbit = parameter_table(Conveyor(acceleration=45.6)), periodic_orbit(Conveyor(acceleration=45.6))
+    >>> guess = touching_point(groups_of(row), at_phase_zero(row, orbit.state), 1)
+    >>> grazing = find_bifurcation("grazing", 1, guess, groups_of(row))
+    >>> round(amplitude_of(row, grazing.groups.amplitude), 4)  # m/s²: the part begins to leave the plate
+    45.6996
     """
     row = packed(groups)
     c = contact.constants(row, TOLERANCE)

@@ -56,7 +56,7 @@ def doubling_test(orbit: Orbit) -> float:
 
 
 def follow_branch(parameters: np.ndarray, orbit: Orbit, limits: tuple[float, float]) -> Branch:
-    """Follow the branch of `orbit` in â to both sides; bifurcations are located to about 1e-9 m/s².
+    """Follow the branch of `orbit` in â to both sides (Keller 1977); bifurcations are located to about 1e-9 m/s².
 
     Parameters
     ----------
@@ -184,7 +184,17 @@ def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbi
 
 
 def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
-    """Whether an orbit, at any of its phases, lies on a branch of `parameters` (amplitude ignored)."""
+    """Whether an orbit, at any of its phases, lies on a branch.
+
+    parameters : a row of a table, the conveyor of the branch and the orbit; its amplitude is ignored
+
+    Examples
+    --------
+    >>> row, start = parameter_table(Conveyor()), Start(z=3e-4)
+    >>> branch = follow_branch(row, periodic_orbit(Conveyor(acceleration=40.0), start), (39.0, 41.0))
+    >>> on_branch(row, branch, periodic_orbit(Conveyor(acceleration=40.5), start))
+    True
+    """
     if branch.orbits[0].period != orbit.period:
         return False
     returns = ReturnMap(parameters, orbit.period)
@@ -211,8 +221,15 @@ def explore_bifurcations(
     parameters : a row of a table; its amplitude is ignored
     seeds : orbits to begin with
     limits : lowest and highest â, m/s²
-    max_period : longer orbits are left out
+    max_period : longest period, excitation cycles
     most : number of orbits, after which no further branch is followed
+
+    Examples
+    --------
+    >>> orbit = periodic_orbit(Conveyor(acceleration=54.0), Start(z=3e-4))
+    >>> branches = explore_bifurcations(parameter_table(Conveyor()), [orbit], (53.9, 54.4), max_period=2, most=1000)
+    >>> [branch.orbits[0].period for branch in branches]
+    [1, 2]
     """
     branches: list[Branch] = []
     waiting = list(seeds)

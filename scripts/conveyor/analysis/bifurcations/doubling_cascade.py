@@ -11,7 +11,7 @@ SECANT_STEPS = 12  # after which a doubling of the cascade is not resolved
 
 
 def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurcation) -> list[Bifurcation]:
-    """Two successive period doublings and those that follow them, as far as double precision resolves them.
+    """Two successive period doublings and the doublings behind them, as far as double precision resolves them.
 
     The distance between doublings shrinks by Feigenbaum's ratio each time. Halfway to the next doubling the doubled
     orbit is about superstable, so that a trajectory reaches it at once. Newton's iteration follows it in â from there
@@ -21,6 +21,17 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
     ----------
     parameters : a row of a table; its amplitude is ignored
     first, second : period doublings, the second one of the doubled orbit
+
+    Examples
+    --------
+    >>> conveyor = Conveyor(acceleration=47.0, stiffness=1e7)
+    >>> row, orbit = parameter_table(conveyor), periodic_orbit(conveyor, Start(z=3e-4))
+    >>> branches = explore_bifurcations(row, [orbit], (46.9, 57.0), max_period=2, most=1000)
+    >>> cascade = doubling_cascade(row, *(branch.bifurcations[0] for branch in branches))
+    >>> [doubling.orbit.period for doubling in cascade][:8]
+    [1, 2, 4, 8, 16, 32, 64, 128]
+    >>> doubling_ratios(np.array([doubling.orbit.acceleration for doubling in cascade]))[4:7].round(3).tolist()
+    [4.668, 4.665, 4.667]
     """
     cascade = [first, second]
     while True:

@@ -32,7 +32,7 @@ class RandomWalk(NamedTuple):
     diffusion: float  # m²/s
     diffusion_stderr: float  # m²/s
     window: int  # cycles after which displacements are uncorrelated; 0 for none
-    status: str  # one of STATUS
+    status: str  # one of RANDOM_WALK_STATUS
 
 
 def sums_over(displacements: np.ndarray, window: int) -> np.ndarray:
@@ -74,6 +74,19 @@ def random_walk(displacements: np.ndarray, period: float) -> RandomWalk:
     ----------
     displacements : along the track in each excitation cycle, m, of n independent runs over k cycles, shape (n, k)
     period : of the excitation, s
+
+    Returns
+    -------
+    RandomWalk, whose status says whether a diffusion coefficient exists
+
+    Examples
+    --------
+    >>> displacements = np.random.default_rng(1).normal(1e-3, 1e-4, (8, 1024))  # m
+    >>> walk = random_walk(displacements, period=0.02)
+    >>> walk.status, round(float(walk.velocity), 4)  # m/s
+    ('ok', 0.05)
+    >>> abs(walk.diffusion - 0.5 * 1e-4**2 / 0.02) < 3.0 * walk.diffusion_stderr
+    True
     """
     displacements = check_array("displacements", displacements, -LARGEST_COORDINATE, LARGEST_COORDINATE, "m")
     period = check_time("period", period)
@@ -102,5 +115,12 @@ def relative_spread(velocity: float, diffusion: float, length: float, deviations
     that lie `deviations` standard deviations below and above the mean.
 
     The time of a random walk with the drift v to the length L has the variance 2 D L/v³.
+
+    velocity, diffusion : drift (m/s) and diffusion coefficient (m²/s), from `random_walk`
+
+    Examples
+    --------
+    >>> round(float(relative_spread(0.05, 1e-5, length=0.5, deviations=1.0)), 4)
+    0.0566
     """
     return 2.0 * deviations * np.sqrt(2.0 * diffusion / (np.abs(velocity) * length))

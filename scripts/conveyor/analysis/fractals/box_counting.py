@@ -177,6 +177,14 @@ def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.
     """Box counting without precautions: one grid, a straight line through the counts of all `sizes`.
 
     The error is twice the standard error of the slope, as if the counts scattered independently.
+
+    points, sizes : shape (n, 2), and sizes of the boxes in units of the set's extent
+
+    Examples
+    --------
+    >>> points = np.random.default_rng(1).random((20_000, 2))  # a filled square
+    >>> round(float(box_dimension_of_paper(points).value), 1)  # too small: small boxes stay empty
+    1.7
     """
     scales = np.sort(np.asarray(sizes, dtype=np.float64))[::-1]
     samples = Samples(normalise(points), np.zeros(len(points), np.int64), scales, len(scales))
