@@ -1,1 +1,1 @@
-"""Calibration: parameters of the contact from measured velocities."""
+"""Calibration: parameters of the contact from measured velocities, or from the numbers of the paper."""

@@ -2,11 +2,13 @@
 
 import re
 import tomllib
+from importlib import import_module
 
 import pytest
 from project import ROOT, STAGES
 
 from scripts.pipeline import source_hash
+from workflow.config.stages import declared
 
 MODULES = {
     ".".join(path.relative_to(source_hash.SCRIPTS).with_suffix("").parts): path
@@ -29,6 +31,14 @@ def test_a_stage_has_one_name_everywhere(stage):
     for file in (f"config/{stage}.yaml", f"workflow/rules/{stage}.smk", f"scripts/{stage}/__init__.py"):
         assert (ROOT / file).is_file(), file
     assert list((ROOT / f"tests/{stage}").glob("test_*.py"))
+
+
+@pytest.mark.parametrize("mapping", ["SECTIONS", "TABLE_SETTINGS"])
+def test_no_two_stages_declare_the_same_name(mapping):
+    """One would silently replace the other."""
+    settings = [import_module(f"scripts.{stage}.settings") for stage in STAGES]
+    names = [name for module in settings for name in getattr(module, mapping, {})]
+    assert len(names) == len(set(names)) == len(declared(mapping)) > 10
 
 
 def test_no_script_has_the_name_of_a_module_of_the_library():
