@@ -113,8 +113,6 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
         for i in range(tangent.shape[0]):
             tangent[i, 0] += tangent[i, 1] * piece.duration
         return piece
-    if tangent.shape[0] == 0:
-        return piece
     for i in range(tangent.shape[0]):
         expansions[i, ETA, 0], expansions[i, ZETA, 0] = tangent[i, 0], tangent[i, 1]
     expand_tangents(c, series, expansions, motion.pulled and c.tension == TENSION_CLIP)
@@ -177,16 +175,17 @@ def advance(c, series, state, phase, duration, tangent, features):
     # Numbers of both perturbations lie side by side, so that one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
     features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
-    clock = pieces.clock_at(c, phase, 0.0, 0)
+    clock = pieces.clock_of(phase, 0)
     motion = vertical.motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:
         switch_damping(c, tangent, True)
     while True:
         piece, after, next_clock, status = pieces.advance(c, series, clock, motion, duration - motion.t, False)
-        shorter = advance_tangent(c, series, tangent, expansions, motion, piece)
-        if shorter.length < piece.length:
-            piece = shorter
-            after, next_clock, status = pieces.end_piece(c, series, clock, motion, piece)
+        if tangent.shape[0] > 0:
+            length = piece.length
+            piece = advance_tangent(c, series, tangent, expansions, motion, piece)
+            if piece.length < length:
+                after, next_clock, status = pieces.end_piece(c, series, clock, motion, piece)
         if status != OK:
             return status
         count_piece(c, motion, piece, features)

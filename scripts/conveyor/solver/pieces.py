@@ -37,6 +37,12 @@ def clock_at(c, origin, first, cycle):
 
 
 @compiled_into_callers
+def clock_of(origin, count):
+    """The Clock of a motion through a single cycle that begins at the phase `origin` (rad), after `count` pieces."""
+    return Clock(origin, 0.0, 0, 0.0, count, FIRST)
+
+
+@compiled_into_callers
 def begin(c, z0, vz0):
     """The Motion and the Clock at the initial conditions z0 (m; NaN on the plate) and vz0 (m/s)."""
     since_cycle = ((c.psi0 - BEGIN_OF_CYCLE) % (2.0 * math.pi)) / c.omega

@@ -13,12 +13,13 @@ from collections import namedtuple
 import numpy as np
 
 from ...parameters import PARAMETERS
-from ...solver import contact, contact_lanes, plate, vertical
+from ...solver import contact, contact_lanes, pieces, plate, vertical
 from ...solver.contact_lanes import COSINE, END, LANES, LENGTH, NONE, SINE, STEPS, TIME, V, W
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
-from ...solver.pieces import BEGIN_OF_CYCLE, MAX_PIECES, time_to_next_cycle
-from ...solver.vertical import FLIGHT, GRAZE, LANDING, LOST, TIME_LIMIT, Motion, Piece
+from ...solver.pieces import BEGIN_OF_CYCLE, time_to_next_cycle
+from ...solver.status import OK
+from ...solver.vertical import FLIGHT, GRAZE, LANDING, TIME_LIMIT, Motion, Piece
 from ...solver.workspace import FIRST
 from ..stroboscopic_map import delta_and_v
 from . import convergence
@@ -131,9 +132,10 @@ def compiled_for(harmonics):
                 while True:
                     over = i == NONE
                     if not over:
+                        clock = pieces.clock_of(cycle[ORIGIN, lane], int(steps[STEPS, lane]))
+                        motion, _, status = pieces.end_piece(c, series, clock, motion, piece)
                         count_piece(piece, lane, steps, cycle)
-                        motion = vertical.arrive(c, motion, piece, cycle[ORIGIN, lane])
-                        over = piece.end == LOST or not vertical.is_finite(motion) or steps[STEPS, lane] > MAX_PIECES
+                        over = status != OK
                         if piece.end == TIME_LIMIT and not over:
                             over = end_cycle(c, i, lane, motion, cycle, search, past, counts, found)
                             motion = begin_cycle(c, found.states[i], lane, steps, cycle)
