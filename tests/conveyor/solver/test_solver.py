@@ -358,3 +358,9 @@ def test_a_plate_presses_against_or_leaves_a_part_at_relative_rest(psi0):
     else:
         assert sample["contact_force"][0] == 0.0
         assert gap == pytest.approx(0.5 * (60.0 * math.sin(conveyor.angle) - 9.81) * 1e-8, rel=1e-2)
+
+
+def test_a_run_that_ends_in_the_air_counts_nothing_behind_its_end():
+    run = simulate(AT_REST, Start(z=1e-3, vz=1.0), duration=0.05)
+    assert (run.impacts, run.event_count, run.impact_speed) == (0, 0, 0.0)
+    assert run.max_gap == run.z_end == pytest.approx(1e-3 + 0.05 - 0.5 * AT_REST.gravity * 0.05**2)
