@@ -12,7 +12,6 @@ import numpy as np
 from conveyor import classify, contact_of_groups, replace_parameters, set_parameters
 from pipeline import fields, grid
 
-FOLDER = "identification"  # of the table, in results/
 TABLES = {
     "edges": (
         fields.number(

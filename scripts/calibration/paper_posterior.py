@@ -33,7 +33,6 @@ VALUES = tuple(fields.number(name, unit, "parameter") for name, unit in PARAMETE
 TOTAL = fields.number("total", "1", "sum of squared misfits, each in half an accepted interval")
 SETS = "a set of evidence at its lowest total; at the printed parameters: euler, converged, or interpolated (edges)"
 TENSION = fields.text("tension", "mode of a tensile contact force")
-FOLDER = "identification"  # of the tables, in results/
 TABLES = {
     "numbers": (
         fields.text("set", SETS),

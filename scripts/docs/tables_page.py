@@ -2,6 +2,7 @@
 
 import importlib
 import pkgutil
+from collections.abc import Collection
 from types import ModuleType
 
 import pyarrow as pa
@@ -22,15 +23,15 @@ def modules_of(stage: str) -> list[ModuleType]:
     return [module for module in modules if hasattr(module, "TABLES")]
 
 
-def file_of(kind: str, folder: str = "") -> str:
+def file_of(kind: str, kinds: Collection[str]) -> str:
     """The file of the tables of a kind; NAME stands for the name of an entry of the config.
 
-    folder : of several with a table of the same name
+    kinds : of all tables of the module, which tell folders with tables of the same name apart
     """
     folders = [reference.split("/")[0] for reference in TABLES if reference.split("/")[1] == kind]
     if not folders:
         return f"results/{kind}/NAME.parquet"
-    folder = folder if folder in folders else folders[0]
+    folder = next((one for one in folders if all(f"{one}/{other}" in TABLES for other in kinds)), folders[0])
     return f"results/{kind}.parquet" if folder == "results" else f"results/{folder}/{kind}.parquet"
 
 
@@ -47,7 +48,7 @@ def make(template: str) -> str:
         stage: [
             {
                 "kind": kind,
-                "file": file_of(kind, getattr(module, "FOLDER", stage)),
+                "file": file_of(kind, module.TABLES),
                 "columns": [describe(column) for column in schema],
             }
             for module in modules_of(stage)
