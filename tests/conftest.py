@@ -10,7 +10,7 @@ from project import Project, copy_project
 def built(tmp_path_factory) -> Project:
     """A built project; tests must not change its sources or results."""
     project = Project(copy_project(tmp_path_factory.mktemp("built")))
-    project.make("all", "docs/companion.html")
+    project.make_in_process("all", "docs/companion.html")
     return project
 
 

@@ -69,6 +69,11 @@ def permuted(value):
     return value
 
 
+# Environment and options with which Snakemake runs all jobs in its own process.
+IN_PROCESS = {"PYTHONPATH": str(ROOT / "tests/inprocess")}
+IN_PROCESS_OPTIONS = ("--cores", "1", "--jobs", "1", "--executor", "inprocess")
+
+
 @dataclass(frozen=True)
 class Project:
     """A copy of the project in `folder`, with an overlay of its config."""
@@ -117,6 +122,11 @@ class Project:
     def make(self, *targets: str) -> None:
         run = self.snakemake(*targets)
         assert run.returncode == 0, run.stdout
+
+    def make_in_process(self, *targets: str) -> None:
+        """As `make`, in a fifth of the processor time: Python starts once, not once per job."""
+        quick = Project(self.folder, self.overlay, self.environment | IN_PROCESS)
+        quick.make(*IN_PROCESS_OPTIONS, *targets)
 
     def planned(self, *targets: str) -> dict[str, int]:
         """Number of jobs by rule that a dry run announces."""

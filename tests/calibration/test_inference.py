@@ -147,12 +147,7 @@ def test_an_inclination_that_was_not_stated_rejects_the_model(inclination):
     assert np.all(found["fit"]["explained"]) != preferred
 
 
-def test_alternatives_are_also_searched_in_a_single_round():
-    settings = SETTINGS | {"rounds": 1, "alternatives": {"inclination": 0.2}}
-    assert len(calibrate(measured(), settings, threads=2)["alternatives"]["parameter"]) == 1
-
-
-def test_alternatives_are_also_searched_if_the_search_without_them_ends_at_a_single_point():
+def test_alternatives_are_also_searched_in_one_round_if_the_search_without_them_ends_at_a_single_point():
     points = np.repeat(bounds_of(SETTINGS).mean(axis=0)[None], 5, axis=0)
     found = Sample(points, np.zeros(5), np.array([1.0, 0.0, 0.0, 0.0, 0.0]), 0.0, 1.0, np.zeros(5, int))
     settings = SETTINGS | {"rounds": 1, "alternatives": {"inclination": 0.2}}

@@ -35,8 +35,13 @@ def quantities(x, tension, velocities):
     return found | ({"velocity": y[:, 0] / WIDTH} if velocities else {})
 
 
-def test_the_posterior_of_normal_errors():
-    samples, fits = posterior.infer(ALL, {}, quantities, SETTINGS)
+@pytest.fixture(scope="module")
+def inferred():
+    return posterior.infer(ALL, {}, quantities, SETTINGS)
+
+
+def test_the_posterior_of_normal_errors(inferred):
+    samples, fits = inferred
     y = (np.log(samples[["friction", "angle"]]) - CENTRE[[0, 3]]) / REACH[[0, 3]]
     mean = samples.weight @ y
     assert mean.friction == pytest.approx(0.0, abs=0.01)
@@ -84,8 +89,8 @@ def test_numbers_are_left_out_and_shifted():
     assert samples.weight @ y == pytest.approx(-2.0 * WIDTH, abs=0.01)
 
 
-def test_intervals_and_the_share_of_the_range_that_they_cover():
-    samples, _ = posterior.infer(ALL, {}, quantities, SETTINGS)
+def test_intervals_and_the_share_of_the_range_that_they_cover(inferred):
+    samples, _ = inferred
     found = posterior.interval_rows(samples, SETTINGS).set_index("parameter")
     expected = CENTRE[0] + REACH[0] * WIDTH * np.array(norm.interval(0.95))
     assert np.log(found.loc["friction", ["low", "high"]].astype(float)).tolist() == pytest.approx(expected, abs=0.03)
@@ -109,8 +114,8 @@ def test_the_error_of_the_best_value_is_its_deviation_from_seed_to_seed():
     assert np.mean(bests) == pytest.approx(CENTRE[0], abs=0.1 * WIDTH * REACH[0])
 
 
-def test_samples_lie_within_the_bounds():
-    samples, _ = posterior.infer(ALL, {}, quantities, SETTINGS)
+def test_samples_lie_within_the_bounds(inferred):
+    samples, _ = inferred
     low, high = (values_at(bound[None], SETTINGS, PARAMETERS) for bound in BOUNDS)
     for name in PARAMETERS:
         assert samples[name].between(low[name][0], high[name][0]).all()

@@ -13,7 +13,7 @@ OTHER = r"was made from settings other than those requested \(model.damping = 0.
 def damped(built):
     """The folder of results for another damping."""
     project = built.under({"prefix": "damped", "model": {"damping": 0.2}})
-    project.make("results/damped/sweeps/amplitudes.parquet")
+    project.make_in_process("results/damped/sweeps/amplitudes.parquet")
     return built.folder / "results/damped"
 
 
@@ -42,5 +42,5 @@ def test_a_wrong_table_is_named_and_made_again_once_it_is_deleted(copied, damped
     assert run.returncode != 0, run.stdout
     assert re.search(f"{file} {problem}.*; delete it, and the next run makes it again", run.stdout), run.stdout
     path.unlink()
-    copied.make(file)
+    copied.make_in_process(file)
     assert path.read_bytes() == sound

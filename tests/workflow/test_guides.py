@@ -125,7 +125,7 @@ def test_the_other_snakefile_plans_the_same(built):
 
 def test_a_stage_runs_without_snakemake(built, monkeypatch):
     """The lines of the guide compute what the rule has written."""
-    built.make("results/lyapunov/spectrum.parquet")
+    built.make_in_process("results/lyapunov/spectrum.parquet")
     (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "workflow/templates/site/running.md").read_text(), re.DOTALL)
     monkeypatch.chdir(built.folder)
     names = {}

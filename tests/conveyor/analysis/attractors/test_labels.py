@@ -105,14 +105,14 @@ def test_labels_do_not_depend_on_other_initial_conditions(hard):
     """Alone, together, in reverse order and in threads, with and without shared attractors."""
     together = labels.classify(hard, threads=2)
     backwards = labels.classify(hard[::-1])
-    alone = [labels.classify(row[None]) for row in hard]
+    alone = [labels.classify(row[None]) for row in hard[::3]]
     shared_by = search.find_attractors(hard, cycles=labels.CYCLES)
     shared = labels.classify(hard, attractors=shared_by)
     one_by_one = [labels.classify(row[None], attractors=shared_by) for row in hard[::3]]
     for name in ("state", "period", "longest_flight"):
         wanted = getattr(together, name)
         np.testing.assert_array_equal(getattr(backwards, name)[::-1], wanted)
-        np.testing.assert_array_equal(np.concatenate([getattr(one, name) for one in alone]), wanted)
+        np.testing.assert_array_equal(np.concatenate([getattr(one, name) for one in alone]), wanted[::3])
         found = getattr(shared, name)
         np.testing.assert_array_equal(np.concatenate([getattr(one, name) for one in one_by_one]), found[::3])
         if (
