@@ -57,7 +57,7 @@ BAD = {
         2,
         "sd = 0.5 m/s is larger than the largest velocity of the plate",
     ),
-    "negative amplitude": (f"{HEAD}\n-30,0.02\n40,0.05\n50,0.06\n", 2, "acceleration = '-30' must not be negative"),
+    "negative amplitude": (f"{HEAD}\n-0.3,0.02\n40,0.05\n50,0.06\n", 2, "acceleration = '-0.3' must not be negative"),
     "line of Excel": (f"sep=,\n{HEAD}\n30,0.02\n40,0.05\n50,0.06\n", 1, "which only Excel reads; delete it"),
     "semicolons below commas": (
         f"{HEAD}\n30;0.02\n40;0.05\n50;0,06\n",
