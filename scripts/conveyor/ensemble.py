@@ -83,11 +83,6 @@ def sweep(
     approach at an impact and the largest contact force over the last quarter (0 if there is none), and status (str;
     "ok", or why the run ended early: impacts are then those up to its end, all other numbers NaN)
 
-    Raises
-    ------
-    ValueError, TypeError
-        name the argument that cannot be used
-
     Examples
     --------
     >>> parameters = parameter_table(Conveyor(), acceleration=np.array([20.0, 40.0])[:, None], z0=[0.0, 3e-4])
@@ -241,11 +236,6 @@ def transits(
     late, shape (n, k); `velocity` (m/s), of late parts what they have travelled over the longest time, shape (n, k);
     `impact_speed` (m/s) and `peak_force` (N), the largest ones from `begin` on, NaN for parts that arrive earlier,
     shape (n,); `status`, shape (n,): "ok", or why the run ended early. Numbers of failed runs are NaN.
-
-    Raises
-    ------
-    ValueError, TypeError
-        name the argument that cannot be used
 
     Examples
     --------

@@ -52,15 +52,10 @@ def basin(
     -------
     Basin, with labels of shape (n, m)
 
-    Raises
-    ------
-    ValueError, TypeError
-        name the argument that cannot be used
-
     Examples
     --------
-    >>> found = basin(Conveyor(acceleration=40.0), z=[0.0, 2e-4, 4e-4])
-    >>> found.state[:, 0].tolist()
+    >>> labels = basin(Conveyor(acceleration=40.0), z=[0.0, 2e-4, 4e-4])
+    >>> labels.state[:, 0].tolist()
     ['first', 'second', 'second']
     """
     heights, speeds = np.atleast_1d(arguments.check_numbers("z", z), arguments.check_numbers("vz", vz))
@@ -97,11 +92,6 @@ def periodic_orbit(
     -------
     Orbit with its Floquet multipliers, at the phase ψ0; None where the iteration finds none
 
-    Raises
-    ------
-    ValueError, TypeError
-        name the argument that cannot be used
-
     Examples
     --------
     >>> orbit = periodic_orbit(Conveyor(acceleration=40.0), Start(z=3e-4))
@@ -129,11 +119,6 @@ def continue_orbit(conveyor: Conveyor, orbit: Orbit, *, low: float, high: float)
     Returns
     -------
     Branch, with folds, period doublings and grazings located to about 1e-9 m/s²
-
-    Raises
-    ------
-    ValueError, TypeError
-        name the argument that cannot be used
 
     Examples
     --------

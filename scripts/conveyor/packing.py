@@ -45,11 +45,6 @@ def parameter_table(conveyor: Conveyor, start: Start = AT_REST, **values: ArrayL
     position in `TENSION_MODES`, and z0 is NaN for a part that starts on the plate. A plate with harmonics has one more
     field for them
 
-    Raises
-    ------
-    ValueError, TypeError
-        name the argument that cannot be used
-
     Examples
     --------
     >>> parameters = parameter_table(Conveyor(), acceleration=np.array([20.0, 40.0])[:, None], z0=[0.0, 3e-4])

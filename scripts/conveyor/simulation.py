@@ -137,11 +137,6 @@ def simulate(
     -------
     Run, whose status says whether the part could be followed to the end
 
-    Raises
-    ------
-    ValueError, TypeError
-        names the argument that cannot be used
-
     Examples
     --------
     >>> run = simulate(Conveyor(acceleration=40.0), Start(z=3e-4), duration=0.5)

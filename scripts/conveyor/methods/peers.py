@@ -171,5 +171,5 @@ def run(
         return lost(NOT_FINITE, trajectory.evaluations)
     x, vx, z, vz = map(float, after)
     mean_velocity = (x - float(before[0])) / (LAST * duration)
-    found = np.array(trajectory.samples).reshape(-1, 4), np.array(trajectory.events)
-    return Summary(x, vx, z, vz, mean_velocity, trajectory.evaluations, STATUS[OK], *found)
+    samples, events = np.array(trajectory.samples).reshape(-1, 4), np.array(trajectory.events)
+    return Summary(x, vx, z, vz, mean_velocity, trajectory.evaluations, STATUS[OK], samples, events)

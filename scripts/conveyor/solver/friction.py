@@ -1,15 +1,15 @@
-"""Coulomb friction: slip and stick while the part touches the plate, without any integration.
+"""Coulomb friction: slip and stick while the part touches the plate, in closed form.
 
-In contact F_c/m = z̈_p + g cos α. While the slip velocity u = ẋ_s - ẋ_p keeps its sign σ, Eq. 12 therefore integrates
-to
+In contact, F_c/m = z̈_p + g cos α. While the part slips, the slip velocity u = ẋ_s - ẋ_p keeps its sign σ. Eq. 12 then
+integrates to
 
     ẋ_p = ẋ_p0 + σμ [ż_p - ż_p0 + g cos α τ] - g sin α τ,
     x_p = x_p0 + ẋ_p0 τ + σμ [z_p - z_p0 - ż_p0 τ + g cos α τ²/2] - g sin α τ²/2,
 
-with τ the time since the segment began. To move with the plate the part needs the force m (ẍ_s + g sin α) along the
-track, its pull. Where u reaches zero, Filippov's condition decides: the part sticks while F_c > 0 and
-|ẍ_s + g sin α| ≤ μ_s F_c/m, else it slips on with the sign of ẍ_s + g sin α. Along a Taylor step of the vertical
-motion u and the margin of stick are polynomials.
+with the time τ since the slip began. A part that moves with the plate needs the force m (ẍ_s + g sin α) along the
+track; per mass, this is the pull. When u reaches zero, Filippov's condition decides: the part sticks while F_c > 0 and
+|ẍ_s + g sin α| ≤ μ_s F_c/m. Otherwise it slips in the direction of ẍ_s + g sin α. Along a Taylor step of the vertical
+motion, u is a polynomial, and so is w [μ_s F_c/m ∓ (ẍ_s + g sin α)]. Their first roots end slip and stick.
 """
 
 import math
@@ -23,7 +23,7 @@ from .workspace import SPARE
 
 @compiled_inline
 def pull(c, sine, cosine):
-    """ẍ_s + g sin α (m/s²) at the phase θ with a sine and cosine."""
+    """The pull ẍ_s + g sin α (m/s²) at a phase θ, given by its sine and cosine."""
     acceleration = c.a_x * plate.pull_share(c, sine, cosine)
     # On a level track the sign of a negative zero must survive: it decides the direction of a slip that begins.
     return acceleration + c.downhill if c.downhill != 0.0 else acceleration
@@ -31,17 +31,18 @@ def pull(c, sine, cosine):
 
 @compiled_into_callers
 def keeps_slipping(c, segment, piece, slip, swing, gain, fastest):
-    """Whether bounds alone show that the slip velocity does not vanish until a contact step ends.
+    """Whether bounds show that a part slips until the contact step ends, so that no root need be searched for.
+
+    Friction reduces the slip velocity by μ times the impulse of the contact force, and increases it where the force
+    pulls. The velocity of the plate is monotonic while its acceleration keeps its sign.
 
     Parameters
     ----------
     segment, piece : the horizontal.Segment, and the vertical.Piece in which it lies
-    slip, swing : slip velocity at its beginning and the change of ẋ_s until the end, times the slip's sign, m/s
-    gain : ∫ F_c/m dt, m/s
+    slip : slip velocity at the beginning of the segment times σ, m/s
+    swing : change of ẋ_s from there to the end of the step times σ, m/s
+    gain : impulse of the contact force per mass from there to the end of the step, ∫ F_c/m dt, m/s
     fastest : m/s, as in contact_law.impulse_of_tension
-
-    Friction lowers the slip by μ times the impulse of the force, and raises it where the force pulls. The velocity of
-    the plate is monotonic while its acceleration keeps its sign, and gravity changes that of the part monotonically.
     """
     lapse = piece.duration - segment.t
     tension = impulse_of_tension(c, fastest, lapse)
@@ -60,9 +61,12 @@ def keeps_slipping(c, segment, piece, slip, swing, gain, fastest):
 
 @compiled_into_callers
 def slip_end(c, step, segment, slip, leave):
-    """The s in the rest of a contact step at which the slip velocity of a segment reaches zero; infinity for none.
+    """Where slip ends: the first s behind the segment's beginning at which the slip velocity is zero.
 
-    `slip` is the slip velocity at the segment's beginning (m/s), `leave` as in polynomial.first_root.
+    Infinite if the part slips to the end of the contact step.
+
+    slip : slip velocity at the beginning of the segment, m/s
+    leave : as in polynomial.first_root
     """
     series, mu = step.series, segment.mu
     fall = mu * c.gravity - segment.sigma * c.downhill
@@ -74,11 +78,14 @@ def slip_end(c, step, segment, slip, leave):
 
 @compiled_into_callers
 def stick_end(c, step, segment):
-    """The s in the rest of a contact step at which |ẍ_s + g sin α| exceeds μ_s F_c/m; whether it does so to the end.
+    """Where stick ends: the first s behind the segment's beginning at which |ẍ_s + g sin α| exceeds μ_s F_c/m.
 
-    The s is infinite if the part sticks to the end of the step, or if nothing moves it along the track. While
-    |ẍ_s + g sin α| > μ_s F_c/m the slip that begins cannot end. On a level track the margin in a direction stays
-    positive if ẍ_s has its sign throughout.
+    On a level track, μ_s F_c/m + ẍ_s stays positive if ẍ_s does, and μ_s F_c/m - ẍ_s if -ẍ_s does.
+
+    Returns
+    -------
+    end : the s; infinite if the part sticks to the end of the contact step
+    lasting : whether |ẍ_s + g sin α| stays above μ_s F_c/m to the end of the step, so that the slip lasts as long
     """
     series, at, length = step.series, step.at, step.piece.length
     end, lasting = math.inf, False

@@ -71,7 +71,7 @@ class Harmonic(NamedTuple):
 
 def check_harmonics(harmonics: Sequence[Harmonic | Mapping[str, float]]) -> tuple[Harmonic, ...]:
     """`harmonics` as Harmonics in ascending order; ValueError that names the number which cannot be used."""
-    found = []
+    checked = []
     for k, given in enumerate(harmonics):
         given = given._asdict() if isinstance(given, Harmonic) else given
         if not isinstance(given, Mapping) or "order" not in given or not given.keys() <= HARMONIC.keys():
@@ -82,11 +82,11 @@ def check_harmonics(harmonics: Sequence[Harmonic | Mapping[str, float]]) -> tupl
             if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, kinds) or not low <= value <= high:
                 kind = "a whole number" if name == "order" else "a number"
                 raise ValueError(f"harmonics[{k}].{name} = {value!r} must be {kind} in [{low:g}, {high:g}] {unit}")
-        found.append(Harmonic(int(given["order"]), *(float(given.get(name, 0.0)) for name in Harmonic._fields[1:])))
-    orders = [harmonic.order for harmonic in found]
+        checked.append(Harmonic(int(given["order"]), *(float(given.get(name, 0.0)) for name in Harmonic._fields[1:])))
+    orders = [harmonic.order for harmonic in checked]
     if len(set(orders)) < len(orders) or len(orders) > MOST_HARMONICS:
         raise ValueError(f"harmonics have the orders {orders}: at most {MOST_HARMONICS}, each once")
-    return tuple(sorted(found))
+    return tuple(sorted(checked))
 
 
 @dataclass(frozen=True, slots=True)

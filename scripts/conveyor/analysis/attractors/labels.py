@@ -65,11 +65,6 @@ def classify(
     MAX_PERIOD; longest_flight (excitation cycles), NaN for chaos and undecided trajectories; cycles (int64) that the
     trajectory was followed for; delta (m) and v (m/s), the last penetration at the beginning of a cycle and its rate
 
-    Raises
-    ------
-    ValueError, TypeError
-        name the argument that cannot be used
-
     Examples
     --------
     >>> labels = classify(parameter_table(Conveyor(), acceleration=[40.0, 57.0, 80.0], z0=3e-4))
@@ -80,31 +75,31 @@ def classify(
     tolerance, threads = check_tolerance(tolerance), check_threads(threads)
     parameters, shape = rows_and_shape(parameters)
     n = len(parameters)
-    found, table_rows = new_trajectories(n), attractors.rows_of(parameters)
+    trajectories, table_rows = new_trajectories(n), attractors.rows_of(parameters)
 
     def work(begin, end):
         rows = slice(begin, end)
         chunk = convergence_lanes.follow_all_to_attractors(
             parameters[rows], tolerance, cycles, attractors, table_rows[rows]
         )
-        for column, values in zip(found, chunk, strict=True):
+        for column, values in zip(trajectories, chunk, strict=True):
             column[rows] = values
 
     for_each_chunk(work, n, threads=threads, chunk=TOGETHER, progress=progress)
-    outcomes = found.outcomes
-    flights = found.flights / (1.0 / parameters[:, FREQUENCY])
+    outcomes = trajectories.outcomes
+    flights = trajectories.flights / (1.0 / parameters[:, FREQUENCY])
     codes = np.full(n, UNDECIDED)
     regular = np.where(flights >= LONG_FLIGHT, SECOND, FIRST)
     codes[outcomes == PERIODIC] = regular[outcomes == PERIODIC]
     codes[outcomes == IN_CHAOTIC_SET] = CHAOS
     still = np.flatnonzero(outcomes == NOT_CONVERGED)
     if exponents and len(still):
-        signs = lyapunov.signs(parameters[still], found.states[still], tolerance=tolerance, threads=threads)
+        signs = lyapunov.signs(parameters[still], trajectories.states[still], tolerance=tolerance, threads=threads)
         codes[still[signs > 0]] = CHAOS
         longer = still[signs < 0]
         codes[longer] = regular[longer]
     flights[(codes == CHAOS) | (codes == UNDECIDED)] = math.nan
-    delta, v = found.states.T
-    labels = {"state": np.array(STATES, dtype=object)[codes], "period": found.periods, "longest_flight": flights}
-    labels |= {"cycles": found.followed, "delta": delta, "v": v}
+    delta, v = trajectories.states.T
+    labels = {"state": np.array(STATES, dtype=object)[codes], "period": trajectories.periods, "longest_flight": flights}
+    labels |= {"cycles": trajectories.followed, "delta": delta, "v": v}
     return Columns({name: column.reshape(shape) for name, column in labels.items()})

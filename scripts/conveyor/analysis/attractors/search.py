@@ -46,11 +46,6 @@ def find_attractors(
     -------
     AttractorTable with the attractors of each distinct conveyor
 
-    Raises
-    ------
-    ValueError
-        parameters are no table
-
     Examples
     --------
     >>> parameters = parameter_table(Conveyor(), acceleration=40.0, z0=[0.0, 3e-4])

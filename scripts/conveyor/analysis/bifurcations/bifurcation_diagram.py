@@ -25,11 +25,6 @@ def follow_attractor(
     states : float64, shape (n, strobes, 2), δ (m) and v (m/s) at the phase ψ0; NaN from a failure on
     status : str, shape (n,), "ok" or why the motion was lost
 
-    Raises
-    ------
-    ValueError, TypeError
-        name the argument that cannot be used
-
     Examples
     --------
     >>> parameters = parameter_table(Conveyor(), acceleration=[50.0, 57.0], z0=3e-4)

@@ -160,8 +160,7 @@ class ReturnMap:
 def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
     """The orbit of `period` cycles that Newton's iteration finds from `state`, or None.
 
-    An orbit whose period divides `period` is an orbit of `period` cycles, too. ValueError names the argument that
-    cannot be used.
+    An orbit whose period divides `period` is an orbit of `period` cycles, too.
 
     Parameters
     ----------

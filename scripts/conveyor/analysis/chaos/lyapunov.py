@@ -109,11 +109,6 @@ def lyapunov_spectrum(
     error of lambda_1 from the means of the blocks, which is too small where correlations last longer than a block;
     contact_fraction, the share of the time with contact force; and status, "ok" or why the numbers are NaN
 
-    Raises
-    ------
-    ValueError, TypeError
-        name the argument that cannot be used
-
     Examples
     --------
     >>> spectrum = lyapunov_spectrum(parameter_table(Conveyor(), acceleration=[40.0, 80.0], z0=3e-4))

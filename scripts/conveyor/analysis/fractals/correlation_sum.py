@@ -69,11 +69,6 @@ def correlation_dimension(points: np.ndarray, theiler: int = 0) -> Dimension:
     theiler : pairs at most this number of samples apart are neighbours in time, not on the attractor, and left out;
         0 to n - 1
 
-    Raises
-    ------
-    ValueError
-        names the argument that cannot be used
-
     Examples
     --------
     >>> angle = np.random.default_rng(1).uniform(0.0, 2.0 * np.pi, 10_000)
