@@ -5,8 +5,8 @@ names and units alone does not wait for NumPy and Numba. `README.md` says how th
 
 Conveyor, Start, parameter_table and the functions that follow trajectories from a conveyor or a table (simulate, sweep,
 transits, classify, basin, periodic_orbit, find_orbit, continue_orbit, follow_attractor, lyapunov_spectrum) check all
-arguments. They raise ValueError or TypeError, which names the argument that cannot be used. A docstring states all other
-errors.
+arguments. They raise ValueError or TypeError, which names the argument that cannot be used. All other errors are in the
+docstrings.
 """
 
 import lazy_loader

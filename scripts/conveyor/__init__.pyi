@@ -4,7 +4,6 @@
 
 # Model and parameters
 from .parameters import (
-    DEFAULT_STEP,
     DEFAULT_TOLERANCE,
     DESCRIPTIONS,
     FIXED_STEP_METHODS,
@@ -31,7 +30,7 @@ from .packing import (
 
 # One run, many runs, and their results
 from .simulation import Run, simulate
-from .ensemble import NEEDS, continued, sample_runs, sweep, transits
+from .ensemble import continued, sample_runs, sweep, transits
 from .columns import Columns
 from .parallel import for_each_chunk
 from .progress import progress_bar

@@ -4,26 +4,17 @@ Functions that follow many trajectories take such a table. Their results have it
 same numbers as rows of float64, in an order that nothing else needs to know.
 """
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .arguments import HIGH, LOW, MAY_BE_NAN, check_numbers, check_parameters, check_type
-from .elementary import cos, sin
-from .parameters import HARMONIC, PARAMETERS, TENSION_MODES, UNITS
-from .solver import plate
-from .solver.model import (
-    ACCELERATION,
-    ANGLE,
-    FREQUENCY,
-    PSI0,
-    Conveyor,
-    Start,
-    check_static_friction,
-    pack,
-    unpack,
-)
+from .parameters import DEFAULT_TOLERANCE, HARMONIC, PARAMETERS, TENSION_MODES, UNITS
+from .solver import contact, plate
+from .solver.jit import compiled
+from .solver.model import Conveyor, Start, check_static_friction, pack, unpack
 
 # The initial condition; ψ0 only shifts the phase at which a motion is observed.
 INITIAL_CONDITION = ("psi0", "z0", "vz0")
@@ -167,12 +158,17 @@ def plate_heights(parameters: np.ndarray) -> np.ndarray:
     >>> plate_heights(parameter_table(Conveyor(acceleration=40.0), psi0=[0.0, 3.0])) > 0.0
     array([False,  True])
     """
-    rows = as_rows(parameters)
-    stroke = rows[:, ACCELERATION] * sin(rows[:, ANGLE]) / (2.0 * np.pi * rows[:, FREQUENCY]) ** 2
-    shape = cos(rows[:, PSI0])
-    if rows.shape[1] > len(PARAMETERS):
-        shape = shape + plate.Sums(*plate.sums_at(rows[:, len(PARAMETERS) :], rows[:, PSI0]).T).z
-    return -(stroke * shape)
+    return heights_of_rows(as_rows(parameters))
+
+
+@compiled
+def heights_of_rows(rows):
+    """`plate_heights` of rows as from `as_rows`."""
+    heights = np.empty(len(rows))
+    for i in range(len(rows)):
+        c = contact.constants(rows[i], DEFAULT_TOLERANCE)
+        heights[i] = plate.height(c, math.sin(c.psi0), math.cos(c.psi0))
+    return heights
 
 
 def refuse_harmonics(parameters: np.ndarray, what: str) -> None:

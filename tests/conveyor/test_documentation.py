@@ -10,7 +10,11 @@ from pathlib import Path
 
 import pytest
 
-LIBRARY = Path(__file__).resolve().parents[2] / "scripts/conveyor"
+import conveyor
+
+ROOT = Path(__file__).resolve().parents[2]
+LIBRARY = ROOT / "scripts/conveyor"
+REFERENCE_PAGE = ROOT / "workflow/templates/site/api_simulation.md"
 README = (LIBRARY / "README.md").read_text()
 FILES = sorted(LIBRARY.rglob("*.py"))
 
@@ -21,6 +25,13 @@ def test_files_in_the_readme_exist():
         file = LIBRARY / name if (LIBRARY / name).is_file() else folder / name
         assert file.is_file() or name.startswith("tests/"), name
         folder = file.parent
+
+
+def test_the_reference_page_has_every_public_name_once():
+    page = REFERENCE_PAGE.read_text().partition("## Supporting modules")[0]
+    constants = [name for row in re.findall(r"^\|(.*?)\|", page, re.MULTILINE) for name in re.findall(r"`(\w+)`", row)]
+    documented = re.findall(r"^\.\. auto\w+:: conveyor\.(\w+)$", page, re.MULTILINE)
+    assert sorted(documented + constants) == sorted(conveyor.__all__)
 
 
 @cache

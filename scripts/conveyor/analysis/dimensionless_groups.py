@@ -19,7 +19,7 @@ import numpy as np
 
 from ..packing import as_rows, refuse_harmonics
 from ..solver import model
-from ..solver.model import PARAMETERS
+from ..solver.model import PARAMETERS, normal_gravity
 
 # The groups in the order of their derivatives. The last three, z0 ω²/g, ż0 ω/g and ψ0, are the initial condition.
 GROUP_NAMES = ("amplitude", "damping", "stiffness", "exponent", "height", "velocity", "phase")
@@ -48,11 +48,6 @@ class Groups(NamedTuple):
     stiffness: float  # K = (k_c/m) g^(p-1)/ω^(2p)
     exponent: float  # p
     tension: int  # code of the treatment of tension, see parameters.TENSION_MODES
-
-
-def normal_gravity(parameters: np.ndarray) -> float:
-    """Gravity normal to the track, g cos α (m/s²), of packed parameters."""
-    return parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION])
 
 
 def groups_of(parameters: np.ndarray) -> Groups:

@@ -39,6 +39,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..parameters import normal_gravity
 from ..solver import plate
 from ..solver.model import check_harmonics, pack_harmonics
 
@@ -67,7 +68,8 @@ def throw_number(
     [0.848, 1.272]
     """
     share = plate.largest_fall(pack_harmonics(check_harmonics(harmonics)))
-    return np.asarray(acceleration) * math.sin(angle) / (gravity * math.cos(inclination)) * share
+    gravity = normal_gravity({"gravity": gravity, "inclination": inclination})
+    return np.asarray(acceleration) * math.sin(angle) / gravity * share
 
 
 def throw_number_of_flight(cycles: ArrayLike) -> np.ndarray:

@@ -6,7 +6,8 @@ Y = δ' + β δ of the stroboscopic map obey, in contact with dφ = w ds,
     dw/ds = (Y - β w²)/2,   dY/ds = w (1 + γ cos φ) - κ w^(2p+1),   dφ/ds = w,
 
 and in flight δ'' = 1 + γ cos φ, with γ = â sin(angle)/g, β = d_c/(m ω) and κ = (k_c/(m g)) (g/ω²)^p. Gravity g is its
-component normal to the track.
+component normal to the track. The certificates write the plate's cosine themselves, because a proof needs balls, and
+`solver.plate` computes with floating-point numbers.
 """
 
 import math

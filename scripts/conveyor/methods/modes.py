@@ -1,35 +1,49 @@
 """The model for integrators of other libraries: right-hand side, events that end a mode, and the mode that follows."""
 
 import math
+from collections import namedtuple
 from collections.abc import Callable
 
 import numpy as np
 
 from ..packing import as_rows
-from ..solver import model
-from ..solver.jit import compiled, copy
+from ..solver import model, plate
+from ..solver.jit import compiled, compiled_inline, copy
 from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth
 from .leg import BACKWARD, FLIGHT, FORWARD, SIGN, STICK
+
+# What the functions of `plate` take from contact.Constants; other integrators take no harmonics.
+Plate = namedtuple("Plate", "omega a_x a_z cos_shift sin_shift harmonics waves")
+
+
+@compiled_inline
+def plate_of(parameters):
+    """The Plate of a parameter vector."""
+    return Plate(
+        2.0 * math.pi * parameters[model.FREQUENCY],
+        parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
+        parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
+        math.cos(parameters[model.PHASE_SHIFT]),
+        math.sin(parameters[model.PHASE_SHIFT]),
+        0,
+        0,
+    )
 
 
 @compiled
 def plate_motion(parameters, t):
     """z_s (m), ż_s, ẋ_s (m/s) and ẍ_s (m/s²) at the time t (s) (Eqs. 3, 4, 10)."""
-    omega = 2.0 * math.pi * parameters[model.FREQUENCY]
-    phase = omega * t + parameters[model.PSI0]
-    a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
-    a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
+    c = plate_of(parameters)
+    phase = c.omega * t + parameters[model.PSI0]
     sine, cosine = math.sin(phase), math.cos(phase)
-    ahead, straight = math.sin(parameters[model.PHASE_SHIFT]), math.cos(parameters[model.PHASE_SHIFT])
-    sine_x, cosine_x = sine * straight + cosine * ahead, cosine * straight - sine * ahead
-    return -a_z / omega**2 * cosine, a_z / omega * sine, a_x / omega * sine_x, a_x * cosine_x
+    along = plate.speed(c, sine, cosine), c.a_x * plate.pull_share(c, sine, cosine)
+    return plate.height(c, sine, cosine), plate.rise(c, sine, cosine), *along
 
 
 @compiled
 def gravity_of(parameters):
     """The components of gravity normal to the track and down along it, m/s²."""
-    gravity, inclination = parameters[model.GRAVITY], parameters[model.INCLINATION]
-    return gravity * math.cos(inclination), gravity * math.sin(inclination)
+    return model.normal_gravity(parameters), parameters[model.GRAVITY] * math.sin(parameters[model.INCLINATION])
 
 
 @compiled
@@ -133,11 +147,8 @@ def next_mode(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callab
 
 def scales(parameters: np.ndarray) -> np.ndarray:
     """The scales of x, ẋ, z, ż (m, m/s) for absolute tolerances: amplitudes of the plate's motion, shape (4,)."""
-    parameters = as_rows(parameters)
-    omega = 2.0 * math.pi * parameters[model.FREQUENCY]
-    a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
-    a_x = parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE])
-    return np.array([a_x / omega**2, a_x / omega, a_z / omega**2, a_z / omega])
+    c = plate_of(as_rows(parameters))
+    return np.array([c.a_x / c.omega**2, c.a_x / c.omega, c.a_z / c.omega**2, c.a_z / c.omega])
 
 
 def put_beside(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callable, mode: int, beside: float) -> None:

@@ -39,7 +39,7 @@ def constants(parameters, tolerance):
     """The Constants of a packed parameter vector (see parameters.PARAMETERS) at a relative tolerance per step."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     mass = parameters[model.MASS]
-    gravity = parameters[model.GRAVITY] * math.cos(parameters[model.INCLINATION])
+    gravity = model.normal_gravity(parameters)
     exponent = parameters[model.EXPONENT]
     stiffness = parameters[model.STIFFNESS] / mass
     static_penetration = contact_law.static_penetration(stiffness, exponent, gravity)

@@ -25,6 +25,7 @@ import numpy as np
 
 from ..parameters import HARMONIC, MOST_HARMONICS, PARAMETERS, RANGES, TENSION_MODES, UNITS
 from . import plate
+from .jit import compiled_inline
 
 ACCELERATION, ANGLE, FREQUENCY, PSI0, STIFFNESS, DAMPING, FRICTION, MASS = range(8)
 EXPONENT, GRAVITY, INCLINATION, PHASE_SHIFT, STATIC_FRICTION, TENSION, Z0, VZ0 = range(8, len(PARAMETERS))
@@ -194,6 +195,12 @@ def unpack(parameters: np.ndarray) -> tuple[Conveyor, Start]:
         harmonics.append(Harmonic(int(order), *polar[0], *polar[1]))
     conveyor = Conveyor(*numbers, TENSION_MODES[int(tension)], tuple(harmonics))
     return conveyor, Start("conveyor" if math.isnan(z0) else z0, vz0)
+
+
+@compiled_inline
+def normal_gravity(parameters):
+    """Gravity normal to the track, g cos α (m/s²), of a parameter vector."""
+    return parameters[GRAVITY] * math.cos(parameters[INCLINATION])
 
 
 def conveyor_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarray]:
