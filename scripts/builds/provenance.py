@@ -58,8 +58,8 @@ def sources(root: Path) -> dict[str, str | bool]:
 def processor() -> str:
     """The name of the processor."""
     file = Path("/proc/cpuinfo")
-    found = file.is_file() and re.search(r"^model name\s*: (.+)$", file.read_text(encoding="utf-8"), re.MULTILINE)
-    return found[1] if found else platform.processor() or platform.machine() or UNKNOWN
+    match = file.is_file() and re.search(r"^model name\s*: (.+)$", file.read_text(encoding="utf-8"), re.MULTILINE)
+    return match[1] if match else platform.processor() or platform.machine() or UNKNOWN
 
 
 def compile_seconds(log: Path) -> float:

@@ -321,6 +321,6 @@ def euler_error(
         f"The sign of the estimate is wrong at {len(wrong[0])} of {len(known[0])} amplitudes by the paper's method"
         f"{middle} and at {len(wrong[1])} by the converged solution"
     )
-    found = {"first_error": float(errors["first"]), "second_error": float(errors["second"])}
+    quantities = {"first_error": float(errors["first"]), "second_error": float(errors["second"])}
     right = 1.0 - len(wrong[0]) / len(known[0]) if len(known[0]) else NONE
-    return Finding(found | {"right_signs": right}, {}, note)
+    return Finding(quantities | {"right_signs": right}, {}, note)

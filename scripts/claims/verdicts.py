@@ -106,9 +106,9 @@ def row(name: str, claim: dict, finding: Finding) -> dict:
     }
 
 
-def columns(claims: dict[str, dict], found: dict[str, Finding]) -> dict[str, list]:
+def columns(claims: dict[str, dict], findings: dict[str, Finding]) -> dict[str, list]:
     """The columns of the table of claims."""
-    return fields.columns([row(name, claim, found[name]) for name, claim in claims.items()], TABLES["claims"])
+    return fields.columns([row(name, claim, findings[name]) for name, claim in claims.items()], TABLES["claims"])
 
 
 def describe_claims(claims: pd.DataFrame) -> list[dict]:
@@ -143,7 +143,7 @@ def report(template: str, rows: pd.DataFrame) -> str:
 def make(settings: dict, references: list[str], template: str, read: list[pd.DataFrame]) -> dict:
     """The columns of the table of claims, and its page; `references` are the names of the tables, SECTION/NAME."""
     tables_by_name = dict(zip(references, read, strict=True))
-    found = {name: evaluate(claim, tables_by_name) for name, claim in settings["claims"].items()}
-    made = columns(settings["claims"], found)
+    findings = {name: evaluate(claim, tables_by_name) for name, claim in settings["claims"].items()}
+    made = columns(settings["claims"], findings)
     rows = tables.make("claims", TABLES["claims"], made, settings).to_pandas()
     return {"claims": made, "report": report(template, rows)}

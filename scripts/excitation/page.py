@@ -33,7 +33,7 @@ def make(
 ) -> str:
     """The page from its template and the tables of the drive."""
     drive = parameters.set_index("parameter").to_dict("index")
-    found = quality.iloc[0].to_dict()
+    fit = quality.iloc[0].to_dict()
     changes = {label: compared.change(comparison, name) for name, label in MEASURES.items()}
     matters = comparison.attrs["matters"]
     return render(
@@ -46,8 +46,8 @@ def make(
             "harmonics": harmonics[harmonics.above_noise].to_dict("records"),
             "largest": largest_share(harmonics),
             "orders": int(harmonics.order.max()) if len(harmonics) else 1,
-            "quality": found,
-            "other": not math.isnan(found["other_frequency"]),
+            "quality": fit,
+            "other": not math.isnan(fit["other_frequency"]),
             "chance": CHANCE,
             "changes": changes,
             "matters": matters,

@@ -116,8 +116,8 @@ def spreads_of(settings: dict) -> dict[str, float]:
 
 def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -> dict:
     """The settings of the transit table, how parts differ, and the advice of each aim with its best changes."""
-    found, errors = (advice[[f"{name}{end}" for name in QUANTILES]].to_numpy().T for end in ("", "_stderr"))
-    advice = advice.assign(spread_stderr=spread_stderr(found, errors))
+    quantiles, errors = (advice[[f"{name}{end}" for name in QUANTILES]].to_numpy().T for end in ("", "_stderr"))
+    advice = advice.assign(spread_stderr=spread_stderr(quantiles, errors))
     rows = {
         row["aim"]: row | {"changes": select_changes(row["aim"], changes)}
         for row in advice.replace({np.nan: None}).to_dict("records")

@@ -138,23 +138,23 @@ def gather(
     """
     for shard in shards:
         check(shard, kind, settings)
-    if (found := sum(pq.read_metadata(shard).num_rows for shard in shards)) != rows:
+    if (count := sum(pq.read_metadata(shard).num_rows for shard in shards)) != rows:
         raise TableError(
-            f"the shards of {path} have {found} rows, not {rows}; delete them, and the next run makes them again"
+            f"the shards of {path} have {count} rows, not {rows}; delete them, and the next run makes them again"
         )
     write_blocks(path, read_blocks(shards, expected))
 
 
 def read_blocks(shards: Sequence[str | Path], expected: Expected) -> Iterator[pa.Table]:
     """The row groups of shards, one by one; TableError for a row group without the expected values."""
-    found = 0
+    end = 0
     for path in shards:
         with pq.ParquetFile(path) as file:
             for number in range(file.num_row_groups):
                 block = file.read_row_group(number)
-                begin, found = found, found + len(block)
-                if not has_values(block, expected((begin, found))):
-                    raise TableError(f"{path} does not contain rows {begin} to {found - 1} of its table; {REMEDY}")
+                begin, end = end, end + len(block)
+                if not has_values(block, expected((begin, end))):
+                    raise TableError(f"{path} does not contain rows {begin} to {end - 1} of its table; {REMEDY}")
                 yield block
 
 
@@ -172,8 +172,8 @@ def check(path: str | Path, kind: str, settings: dict | None = None) -> None:
     except (pa.ArrowException, OSError) as error:
         raise TableError(f"{path} cannot be read as a table of {kind} ({error}); {REMEDY}") from error
     if metadata.get(KIND) != kind.encode():
-        found = metadata.get(KIND, b"").decode() or "something else"
-        raise TableError(f"{path} is not a table of {kind} but of {found}; {REMEDY}")
+        actual = metadata.get(KIND, b"").decode() or "something else"
+        raise TableError(f"{path} is not a table of {kind} but of {actual}; {REMEDY}")
     if settings is not None:
         difference = first_difference(json.loads(metadata[SETTINGS]), json.loads(json.dumps(settings)))
         if difference:
@@ -189,12 +189,12 @@ def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFr
         raise TableError(f"{path} is damaged ({error}); {REMEDY}") from error
 
 
-def first_difference(found: Any, requested: Any, key: str = "") -> str:
+def first_difference(recorded: Any, requested: Any, key: str = "") -> str:
     """The first difference of two settings as "KEY = FOUND, not REQUESTED"; empty if they are equal."""
-    if isinstance(found, dict) and isinstance(requested, dict):
-        for name in found | requested:
+    if isinstance(recorded, dict) and isinstance(requested, dict):
+        for name in recorded | requested:
             place = f"{key}.{name}".lstrip(".")
-            if difference := first_difference(found.get(name, MISSING), requested.get(name, MISSING), place):
+            if difference := first_difference(recorded.get(name, MISSING), requested.get(name, MISSING), place):
                 return difference
         return ""
-    return "" if found == requested else f"{key} = {found}, not {requested}"
+    return "" if recorded == requested else f"{key} = {recorded}, not {requested}"

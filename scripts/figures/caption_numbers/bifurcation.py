@@ -14,10 +14,10 @@ def is_chaotic(spectrum: pd.DataFrame) -> pd.Series:
 
 def accumulation(*, spectrum: pd.DataFrame, cascade: pd.DataFrame) -> dict:
     """Where the period doublings accumulate, and where motions are chaotic before it and regular behind it."""
-    found = cascade.accumulation.dropna()
-    if found.empty:
+    limits = cascade.accumulation.dropna()
+    if limits.empty:
         return {"accumulation": None}
-    place, runs = found.iloc[-1], {}
+    place, runs = limits.iloc[-1], {}
     for branch, rows in spectrum.sort_values("acceleration", kind="stable").groupby("branch"):
         early = rows[rows.acceleration < place]
         runs[branch] = find_runs(early.acceleration, is_chaotic(early))

@@ -11,9 +11,9 @@ def numbers(
 ) -> dict[str, float]:
     settled = with_settled_motion(converged, states)
     positive = settled[settled["lambda"] > 0.0]
-    found = {"positive": len(positive), "periodic": int((positive.period > 0).sum())}
+    counts = {"positive": len(positive), "periodic": int((positive.period > 0).sum())}
     if euler is None:
-        return found
+        return counts
     up = spectrum[(spectrum.branch == "up")].sort_values("acceleration", kind="stable")
     joined = pd.merge_asof(
         converged.sort_values("acceleration", kind="stable"),
@@ -22,7 +22,7 @@ def numbers(
         direction="nearest",
     )
     joined = joined[joined.chaotic]
-    return found | {
+    return counts | {
         "lowest_chaos": settled[settled.chaotic].acceleration.min(),
         "euler_positive": positive_onset(euler),
         "converged_positive": positive_onset(converged),

@@ -134,8 +134,10 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     if named:
         amplitudes.legend(loc="lower left", bbox_to_anchor=(-0.19, 1.0), ncols=2, columnspacing=0.6, handletextpad=0.2)
     else:
-        found = derivatives.kind.isin(("fold", "period_doubling")).any()
-        style.say(amplitudes, "no derivative passed the check" if found else "no fold and no period doubling")
+        has_bifurcations = derivatives.kind.isin(("fold", "period_doubling")).any()
+        style.say(
+            amplitudes, "no derivative passed the check" if has_bifurcations else "no fold and no period doubling"
+        )
         amplitudes.set_xticks([])
 
     rows = derivatives[(derivatives.kind == "critical_height") & (derivatives.status == "ok")]
@@ -148,8 +150,8 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     if by_amplitude:
         heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=0.7, handletextpad=0.0)
     else:
-        found = (derivatives.kind == "critical_height").any()
-        style.say(heights, "no derivative passed the check" if found else "no critical height")
+        has_heights = (derivatives.kind == "critical_height").any()
+        style.say(heights, "no derivative passed the check" if has_heights else "no critical height")
         heights.set_xticks([])
 
     draw_curves(damping, continued, meetings, "damping", "damping group $D = d_c/(m\\omega)$")
