@@ -130,9 +130,8 @@ def test_a_part_that_slides_on_a_steep_track_has_no_velocity(acceleration, z, pe
 def test_how_steep_a_track_is_depends_on_both_coefficients_of_friction():
     tracks = parameter_table(Conveyor(friction=0.2, static_friction=0.35), inclination=[-0.1, 0.3, 0.4])
     assert list(regimes.steepness(tracks)) == [0, 1, 2]
-    assert list(regimes.steepness(parameter_table(Conveyor(friction=0.0), inclination=[0.0]))) == [
-        0
-    ]  # level, without friction
+    level = parameter_table(Conveyor(friction=0.0), inclination=[0.0])
+    assert list(regimes.steepness(level)) == [0]
 
 
 def test_a_part_that_sticks_in_every_cycle_has_a_velocity_on_a_steep_track():
