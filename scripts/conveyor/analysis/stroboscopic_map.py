@@ -17,7 +17,7 @@ import math
 import numpy as np
 
 from ..solver import contact, contact_law, pieces, plate, polynomial, vertical, workspace
-from ..solver.contact_law import row_of
+from ..solver.contact_law import ETA, ZETA, expand_tangents
 from ..solver.jit import compiled, compiled_inline, copy
 from ..solver.model import PSI0, TENSION_CLIP, VZ0, Z0
 from ..solver.polynomial import ORDER, SIZE
@@ -31,8 +31,6 @@ HIDDEN = 1e-6  # a determinant that is a smaller share of its two products is lo
 # Features of a cycle.
 IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
 FEATURES = 4
-# Rows of a perturbation's expansion.
-ETA, ZETA, RATE = range(3)
 
 
 @compiled
@@ -44,43 +42,6 @@ def initial_states(parameters, tolerance):
         q, rate = vertical.begin(c, parameters[i, Z0], parameters[i, VZ0], c.psi0)
         states[i, 0], states[i, 1] = -q, -rate
     return states
-
-
-@compiled
-def expand_tangents(c, series, expansions, free):
-    """Fill the Taylor coefficients of two perturbations along a contact step from η and ζ at s = 0.
-
-    With the derivative in s, η' = w (ζ - (d_c/m) η) and ζ' = -p (k_c/m) w^(2p-1) η.
-
-    Parameters
-    ----------
-    c, series : contact.Constants, and the workspace with the step's series
-    expansions : float64, shape (2, 3, SIZE), for each perturbation the rows ETA, ZETA, and RATE, ζ - (d_c/m) η
-    free : whether the contact force is left out
-    """
-    w = row_of(series, FIRST + workspace.W)
-    stiffness, stiff = contact_law.expand_stiffness(c, series, FIRST, workspace.SPARE)
-    slope = contact_law.smooth_slope(c)
-    if free:
-        stiffness = slope = 0.0
-    w_0, stiff_0 = w[0], stiff[0]
-    eta_1, eta_2 = expansions[0, ETA, 0], expansions[1, ETA, 0]
-    zeta_1, zeta_2 = expansions[0, ZETA, 0], expansions[1, ZETA, 0]
-    for n in range(ORDER):
-        rate_1, rate_2 = zeta_1 - slope * eta_1, zeta_2 - slope * eta_2
-        expansions[0, RATE, n], expansions[1, RATE, n] = rate_1, rate_2
-        # The newest coefficients are still in registers, and the processor computes both perturbations at a time.
-        drift_1, drift_2 = w_0 * rate_1, w_0 * rate_2
-        pull_1, pull_2 = stiff_0 * eta_1, stiff_0 * eta_2
-        for k in range(1, n + 1):
-            drift_1 += w[k] * expansions[0, RATE, n - k]
-            drift_2 += w[k] * expansions[1, RATE, n - k]
-            pull_1 += stiff[k] * expansions[0, ETA, n - k]
-            pull_2 += stiff[k] * expansions[1, ETA, n - k]
-        eta_1, eta_2 = drift_1 / (n + 1), drift_2 / (n + 1)
-        zeta_1, zeta_2 = -stiffness * pull_1 / (n + 1), -stiffness * pull_2 / (n + 1)
-        expansions[0, ETA, n + 1], expansions[1, ETA, n + 1] = eta_1, eta_2
-        expansions[0, ZETA, n + 1], expansions[1, ZETA, n + 1] = zeta_1, zeta_2
 
 
 @compiled
@@ -115,7 +76,7 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
         return piece
     for i in range(tangent.shape[0]):
         expansions[i, ETA, 0], expansions[i, ZETA, 0] = tangent[i, 0], tangent[i, 1]
-    expand_tangents(c, series, expansions, motion.pulled and c.tension == TENSION_CLIP)
+    expand_tangents(c, series, FIRST, expansions, motion.pulled and c.tension == TENSION_CLIP)
     longest = tangent_length(c, expansions)
     if longest < piece.length:
         duration = polynomial.value(series, FIRST + workspace.T, longest)

@@ -26,6 +26,7 @@ from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..parameters import LAST, PARAMETERS
 from ..solver import model, plate
 from ..solver.contact_lanes import LANES, new_memory, place
+from ..solver.contact_law import coefficients_per_mass
 from ..solver.jit import compiled, compiled_inline, compiled_into_callers
 from ..solver.record import IMPACT, SAMPLES, SEPARATED, name_events
 from ..solver.status import NOT_FINITE, OK
@@ -316,13 +317,11 @@ def prepare(kind, parameters, flat, memory, lane):
     sine_track, cosine_track = sine_and_cosine_by(method, parameters[model.INCLINATION])
     ahead, straight = sine_and_cosine_by(method, parameters[model.PHASE_SHIFT])
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
-    mass = parameters[model.MASS]
     a_z, a_x = parameters[model.ACCELERATION] * sine_angle, parameters[model.ACCELERATION] * cosine_angle
     memory[OMEGA, lane], memory[PSI0, lane] = omega, parameters[model.PSI0]
     memory[PLATE_Z, lane], memory[PLATE_VZ, lane] = a_z / (omega * omega), a_z / omega
     memory[PLATE_VX, lane], memory[PLATE_AX, lane] = a_x / omega, a_x
-    memory[STIFFNESS, lane] = parameters[model.STIFFNESS] / mass
-    memory[DAMPING, lane] = parameters[model.DAMPING] / mass
+    memory[STIFFNESS, lane], memory[DAMPING, lane] = coefficients_per_mass(parameters)
     memory[EXPONENT, lane] = parameters[model.EXPONENT]
     memory[FRICTION, lane] = parameters[model.FRICTION]
     memory[STATIC_FRICTION, lane] = parameters[model.STATIC_FRICTION]

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..packing import as_rows
 from ..solver import model, plate
+from ..solver.contact_law import coefficients_per_mass
 from ..solver.jit import compiled, compiled_inline, copy
 from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth
 from .leg import BACKWARD, FLIGHT, FORWARD, SIGN, STICK
@@ -51,14 +52,14 @@ def normal_force(parameters, t, state):
     """Gap (m) and F_c/m (m/s²) as if in contact, of the state (x, ẋ, z, ż)."""
     z, vz, _, _ = plate_motion(parameters, t)
     gap = state[2] - z
-    mass = parameters[model.MASS]
     closed = min(gap, 0.0)
+    stiffness, damping = coefficients_per_mass(parameters)
     push = contact_acceleration(
         closed,
         vz - state[3],
         power_of_depth(-closed, parameters[model.EXPONENT]),
-        parameters[model.STIFFNESS] / mass,
-        parameters[model.DAMPING] / mass,
+        stiffness,
+        damping,
         least_push(parameters[model.TENSION]),
     )
     return gap, push

@@ -38,10 +38,9 @@ Constants = namedtuple(
 def constants(parameters, tolerance):
     """The Constants of a packed parameter vector (see parameters.PARAMETERS) at a relative tolerance per step."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
-    mass = parameters[model.MASS]
     gravity = model.normal_gravity(parameters)
     exponent = parameters[model.EXPONENT]
-    stiffness = parameters[model.STIFFNESS] / mass
+    stiffness, damping = contact_law.coefficients_per_mass(parameters)
     static_penetration = contact_law.static_penetration(stiffness, exponent, gravity)
     # cos(π/2) is not zero in floating point.
     along = math.cos(parameters[model.ANGLE]) if parameters[model.ANGLE] < 0.5 * math.pi else 0.0
@@ -58,11 +57,11 @@ def constants(parameters, tolerance):
         math.cos(parameters[model.PHASE_SHIFT]),
         math.sin(parameters[model.PHASE_SHIFT]),
         stiffness,
-        parameters[model.DAMPING] / mass,
+        damping,
         exponent,
         parameters[model.FRICTION],
         parameters[model.STATIC_FRICTION],
-        mass,
+        parameters[model.MASS],
         int(parameters[model.TENSION]),
         tolerance,
         math.sqrt(static_penetration),

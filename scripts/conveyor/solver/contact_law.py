@@ -17,15 +17,24 @@ follows from the recurrence of a power.
 
 import numpy as np
 
-from . import plate
+from . import model, plate
 from .jit import compiled, compiled_inline, compiled_into_callers, fma
 from .plate import numbers_at, rows_of_wave  # noqa: F401 - for generated code
 from .polynomial import ORDER, SIZE, place
 from .unrolled import square
-from .workspace import COSINE, LIFT_W, SINE, SPRING, SQUARE, T, V, W
+from .workspace import COSINE, LIFT_W, SINE, SPARE, SPRING, SQUARE, T, V, W
 
 # The letters of the rows of a step in the generated code.
 LETTERS = {W: "w", T: "t", V: "v", SINE: "s", COSINE: "c", SQUARE: "q", SPRING: "p", LIFT_W: "x"}
+# Rows of a perturbation's expansion.
+ETA, ZETA, RATE = range(3)
+
+
+@compiled_inline
+def coefficients_per_mass(parameters):
+    """k_c/m and d_c/m of a packed parameter vector."""
+    mass = parameters[model.MASS]
+    return parameters[model.STIFFNESS] / mass, parameters[model.DAMPING] / mass
 
 
 @compiled_inline
@@ -280,6 +289,43 @@ def expand_stiffness(c, series, at, row):
     else:
         expand_power(c, series, at, row, 2.0 * c.exponent - 1.0)
     return factor, power
+
+
+@compiled
+def expand_tangents(c, series, at, expansions, free):
+    """Fill the Taylor coefficients of two perturbations along a contact step from η and ζ at s = 0.
+
+    With the derivative in s, η' = w (ζ - (d_c/m) η) and ζ' = -p (k_c/m) w^(2p-1) η.
+
+    Parameters
+    ----------
+    c, series, at : contact.Constants, the workspace with the step's series, and the step's first row
+    expansions : float64, shape (2, 3, SIZE), for each perturbation the rows ETA, ZETA, and RATE, ζ - (d_c/m) η
+    free : whether the contact force is left out
+    """
+    w = row_of(series, at + W)
+    stiffness, stiff = expand_stiffness(c, series, at, SPARE)
+    slope = smooth_slope(c)
+    if free:
+        stiffness = slope = 0.0
+    w_0, stiff_0 = w[0], stiff[0]
+    eta_1, eta_2 = expansions[0, ETA, 0], expansions[1, ETA, 0]
+    zeta_1, zeta_2 = expansions[0, ZETA, 0], expansions[1, ZETA, 0]
+    for n in range(ORDER):
+        rate_1, rate_2 = zeta_1 - slope * eta_1, zeta_2 - slope * eta_2
+        expansions[0, RATE, n], expansions[1, RATE, n] = rate_1, rate_2
+        # The newest coefficients are still in registers, and the processor computes both perturbations at a time.
+        drift_1, drift_2 = w_0 * rate_1, w_0 * rate_2
+        pull_1, pull_2 = stiff_0 * eta_1, stiff_0 * eta_2
+        for k in range(1, n + 1):
+            drift_1 += w[k] * expansions[0, RATE, n - k]
+            drift_2 += w[k] * expansions[1, RATE, n - k]
+            pull_1 += stiff[k] * expansions[0, ETA, n - k]
+            pull_2 += stiff[k] * expansions[1, ETA, n - k]
+        eta_1, eta_2 = drift_1 / (n + 1), drift_2 / (n + 1)
+        zeta_1, zeta_2 = -stiffness * pull_1 / (n + 1), -stiffness * pull_2 / (n + 1)
+        expansions[0, ETA, n + 1], expansions[1, ETA, n + 1] = eta_1, eta_2
+        expansions[0, ZETA, n + 1], expansions[1, ZETA, n + 1] = zeta_1, zeta_2
 
 
 @compiled_inline
