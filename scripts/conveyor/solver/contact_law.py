@@ -31,16 +31,16 @@ ETA, ZETA, RATE = range(3)
 
 
 @compiled_inline
+def spring_and_damper(elastic, damping, speed):
+    """F_c of a closed contact from k_c δ^p, d_c and δ̇ (Eq. 7), or F_c/m from these values per mass."""
+    return elastic + damping * speed
+
+
+@compiled_inline
 def coefficients_per_mass(parameters):
     """k_c/m and d_c/m of a packed parameter vector."""
     mass = parameters[model.MASS]
     return parameters[model.STIFFNESS] / mass, parameters[model.DAMPING] / mass
-
-
-@compiled_inline
-def spring_and_damper(elastic, damping, speed):
-    """F_c of a closed contact from k_c δ^p, d_c and δ̇ (Eq. 7), or F_c/m from these values per mass."""
-    return elastic + damping * speed
 
 
 @compiled_inline
