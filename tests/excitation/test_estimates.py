@@ -93,6 +93,20 @@ def test_intervals_are_not_too_wide(kind):
     assert 0.4 < np.mean(scaled) < 1.6
 
 
+def test_noise_near_a_harmonic_is_the_error_of_this_harmonic():
+    """A slow beat of the second harmonic, which the fit leaves in its residual."""
+    drive = Drive(harmonics=HARMONICS, noise=0.0)
+    recording = parse(drive.text(0), "mine.csv", drive.settings)
+    found = fit(recording.time, recording.acceleration, drive.frequency, 3)
+    time = recording.time - found.middle
+    beat = 0.01 * np.cos(4.0 * np.pi * found.frequency * time) * np.cos(6.0 * np.pi * time / np.ptp(time))
+    noise = noise_of(recording, found._replace(residual=np.stack([beat, beat])))
+    first, second, third = (
+        np.abs(noise.amplitude[0, order]).max() * abs(found.amplitudes[0, order]) for order in range(3)
+    )
+    assert max(first, third) < 0.1 * second
+
+
 def test_noise_makes_no_harmonics():
     random, alarms = np.random.default_rng(29), 0
     for seed in range(20):
