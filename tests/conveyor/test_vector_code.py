@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
-from conveyor.methods import fixed_step
+from conveyor.methods import fixed_step, fixed_step_lanes
 from conveyor.solver import contact_lanes
 from conveyor.solver.model import pack
 
@@ -73,8 +73,8 @@ def test_fixed_steps_are_vector_code(widest, method, least, plate):
     def count(runs):
         parameters = np.array([pack(Conveyor(**plate), Start())] * runs)
         fixed_step.run_all(parameters, 1e-5, 1e-6, method)
-        kind = fixed_step.kind_of(fixed_step.METHODS.index(method), parameters)
-        return vector_instructions(fixed_step.compiled_for(kind))[widest]
+        kind = fixed_step_lanes.kind_of(fixed_step.METHODS.index(method), parameters)
+        return vector_instructions(fixed_step_lanes.compiled_for(kind))[widest]
 
     single = count(1)
     assert count(2) - single > least

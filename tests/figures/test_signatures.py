@@ -7,7 +7,7 @@ import pytest
 from jinja2.meta import find_undeclared_variables
 from project import ROOT, read_config
 
-from conveyor.methods import fixed_step
+from conveyor.methods import fixed_step, scheme
 from figures import style
 from pipeline.templates import ENVIRONMENT
 
@@ -59,4 +59,4 @@ def test_the_values_of_a_caption_exist(figure):
 def test_a_method_with_a_fixed_step_is_complete(method):
     assert method in style.METHODS
     assert method in fixed_step.GROWTH
-    assert len(fixed_step.EVALUATIONS) == len(fixed_step.METHODS)
+    assert len(scheme.EVALUATIONS) == len(fixed_step.METHODS)

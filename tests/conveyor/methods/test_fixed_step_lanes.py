@@ -7,8 +7,8 @@ import pytest
 
 from conveyor import Conveyor, Start
 from conveyor.methods import fixed_step
-from conveyor.methods.fixed_step import (
-    CHECK,
+from conveyor.methods.fixed_step_lanes import CHECK
+from conveyor.methods.scheme import (
     CONTACT_TIME,
     EULER,
     EVENTS,
@@ -24,6 +24,7 @@ from conveyor.methods.fixed_step import (
 from conveyor.methods.sine import sine_and_cosine
 from conveyor.solver.jit import compiled
 from conveyor.solver.model import FRICTION, GRAVITY, STATIC_FRICTION, TENSION_MODES, VZ0, Z0, pack
+from conveyor.solver.status import NOT_FINITE, OK
 
 STEP = 1e-3 / 64
 INDICES = np.array([0, 1, 1, 255, 256, 257, 1000, 3700, 5000])
@@ -156,7 +157,7 @@ def test_a_group_agrees_with_single_runs(method, orders):
     # The comparison is meaningful.
     evaluations, status = found[2][:, FORCE_EVALUATIONS], found[2][:, STATUS]
     assert (found[2][:, IMPACTS] > 1).sum() > 5
-    assert set(status) == {fixed_step.OK, fixed_step.NOT_FINITE}
+    assert set(status) == {OK, NOT_FINITE}
     assert len(set(evaluations)) > 1
 
 
@@ -270,7 +271,7 @@ def test_a_state_that_is_not_finite():
     lost[[GRAVITY, VZ0]] = -1e308, 1.77e308
     samples, _, results = follow(np.array([calm, lost, calm]))
     np.testing.assert_array_equal(results[0], results[2])
-    assert results[:, STATUS].tolist() == [fixed_step.OK, fixed_step.NOT_FINITE, fixed_step.OK]
+    assert results[:, STATUS].tolist() == [OK, NOT_FINITE, OK]
     assert results[:, FORCE_EVALUATIONS].tolist() == [5000, 3 * CHECK, 5000]
     assert np.isfinite(samples[1, :6]).all()
     assert np.isnan(samples[1, 6:]).all()
@@ -283,7 +284,7 @@ def test_events_of_a_trajectory_end_where_it_is_lost():
     lost = calm.copy()
     lost[[FRICTION, STATIC_FRICTION]] = 1e308
     _, events, results = follow(np.array([lost, calm]))
-    assert results[:, STATUS].tolist() == [fixed_step.NOT_FINITE, fixed_step.OK]
+    assert results[:, STATUS].tolist() == [NOT_FINITE, OK]
     seen = int(results[0, EVENTS])
     assert 0 < seen < results[1, EVENTS]
     np.testing.assert_array_equal(events[0, :seen], events[1, :seen])
