@@ -53,6 +53,7 @@ FEIGENBAUM = 4.669201609102990672
 TOLERANCE = 1e-14  # of contact steps
 LIGHT = 1e-5  # dimensionless damping so small that the loss of speed is proportional to it
 RUN = 20.0  # duration of a run in durations of an undamped impact
+WEAK = 1e-18  # gravity, m/s², that no digit of an impact shows, although the flight behind it still ends
 CYCLES = 200  # excitation cycles until a part with a stiff contact is close to its orbit
 # Lee, Teng and Hu (2021): Hz, m. The ratio of the displacements and the phases are those of the largest velocity.
 LOWER_FREQUENCY, STROKE = 237.5, 54.5e-6
@@ -79,7 +80,7 @@ def simulate_impact(conveyor: Conveyor, speed: float) -> Impact:
         if the part has not separated after RUN durations of an undamped impact
     """
     row = parameter_table(conveyor, Start(z=closed_forms.compression(conveyor, speed), vz=-speed))
-    row["acceleration"] = row["gravity"] = 0.0  # a Conveyor must have gravity, but the solver does not need it
+    row["acceleration"], row["gravity"] = 0.0, WEAK  # less gravity than a Conveyor may have
     end = RUN * closed_forms.undamped_duration(conveyor, speed)
     samples, events = event_driven.follow(row, np.array([end]), TOLERANCE, room=8)
     times = {kind: time for time, kind in events}
