@@ -3,9 +3,9 @@
 Numba alone recognises a change only in the file of a function, although the machine code also holds functions of other
 files. Here any change in the library gives the machine code of its modules a new folder, so that no stale code runs.
 Only the modules of `solver`, which import nothing but `parameters` and each other, keep theirs after a change
-elsewhere, so that the first `simulate` need not compile for half a minute again. Clones with equal sources share their folders,
-and the library itself may be read-only. Numba writes each file under a name of its own and then renames it, so that
-several jobs may compile at once.
+elsewhere, so that the first `simulate` need not compile for half a minute again. Clones with equal sources share their
+folders, and the library itself may be read-only. Numba writes each file under a name of its own and then renames it, so
+that several jobs may compile at once.
 """
 
 import hashlib
