@@ -61,18 +61,6 @@ def sine_and_cosine_by(method, phase):
 
 
 @compiled_inline
-def harmonic_at(memory, lane, order, first):
-    """The numbers of a harmonic, in the order of plate.K, from their first row."""
-    return (
-        float(order),
-        memory[place(first + 1, lane)],
-        memory[place(first + 2, lane)],
-        memory[place(first + 3, lane)],
-        memory[place(first + 4, lane)],
-    )
-
-
-@compiled_inline
 def shapes_at(kind, memory, lane, phase):
     """The Shapes of a plate at a phase (rad)."""
     sine, cosine = sine_and_cosine_by(kind.method, phase)
@@ -88,7 +76,9 @@ def shapes_at(kind, memory, lane, phase):
     for order in range(2, len(kind.waves)):
         s, c = s * cosine + c * sine, c * cosine - s * sine
         if kind.waves[order] > 0:
-            added = plate.add_harmonic(added, harmonic_at(memory, lane, order, kind.waves[order]), s, c)
+            harmonic = plate.numbers_at(memory, place(kind.waves[order], lane), np.uint64(LANES))
+            # The order is known to the compiler, which then divides by a constant.
+            added = plate.add_harmonic(added, (float(order), *harmonic[1:]), s, c)
     return Shapes(cosine + added.z, sine + added.vz, along + added.vx, pull + added.ax)
 
 

@@ -63,6 +63,18 @@ def numbers_of(c, h):
 
 
 @compiled_inline
+def numbers_at(series, row, lanes):
+    """The numbers of a harmonic, in the order above, from their first row on; row and lanes are unsigned."""
+    return (
+        series[row],
+        series[row + lanes],
+        series[row + lanes + lanes],
+        series[row + lanes + lanes + lanes],
+        series[row + lanes + lanes + lanes + lanes],
+    )
+
+
+@compiled_inline
 def add_harmonic(sums, harmonic, s, c):
     """The Sums with one more harmonic, given by its numbers; s and c are sine and cosine of kθ."""
     z, vz, az, x, vx, ax = sums
@@ -172,13 +184,7 @@ def sums_at(harmonics, phases):
     for i in range(len(phases)):
         sums, sine, cosine = NO_SUMS, math.sin(phases[i]), math.cos(phases[i])
         for h in range(0, harmonics.shape[1], NUMBERS):
-            harmonic = (
-                harmonics[i, h + K],
-                harmonics[i, h + ALONG_COSINE],
-                harmonics[i, h + ALONG_SINE],
-                harmonics[i, h + NORMAL_COSINE],
-                harmonics[i, h + NORMAL_SINE],
-            )
+            harmonic = numbers_at(harmonics[i], np.uint64(h), ONE)
             sums = add_harmonic(sums, harmonic, *multiple(int(harmonic[K]), sine, cosine))
         copy(found[i], sums)
     return found
@@ -304,18 +310,6 @@ def rows_of_wave(waves, h, lanes):
     cosine = waves + np.uint64(h * WAVE) * lanes
     sine = cosine + np.uint64(SIZE) * lanes
     return cosine, sine, sine + np.uint64(SIZE) * lanes
-
-
-@compiled_inline
-def numbers_at(series, row, lanes):
-    """The numbers of a harmonic, in the order above, from their first row on; row and lanes are unsigned."""
-    return (
-        series[row],
-        series[row + lanes],
-        series[row + lanes + lanes],
-        series[row + lanes + lanes + lanes],
-        series[row + lanes + lanes + lanes + lanes],
-    )
 
 
 @compiled_inline

@@ -71,6 +71,15 @@ def test_no_impact_is_missed():
     assert met > 300
 
 
+@pytest.mark.parametrize("velocity", [-3.0, -1e-9, 0.0, 1e-9, 0.2, 3.0])
+@pytest.mark.parametrize("height", [1e-12, 1e-4, 2.0])
+def test_time_of_a_fall(velocity, height):
+    """The part is at the lower height then."""
+    tau = flight.time_of_fall(velocity, height, 9.81)
+    assert (0.5 * 9.81 * tau - velocity) * tau == pytest.approx(height, rel=1e-9, abs=1e-15)
+    assert tau > 0.0
+
+
 def test_largest_gap_agrees_with_a_scan():
     for z, vz, q, rate, theta, gravity, a_z, omega in random_flights(300, seed=2):
         tau, _ = flight.next_impact(take_off(z, vz, theta, gravity, a_z, omega), q, rate, math.inf)
