@@ -79,10 +79,11 @@ def add_harmonic(sums, harmonic, s, c):
     """The Sums with one more harmonic, given by its numbers; s and c are sine and cosine of kθ."""
     z, vz, az, x, vx, ax = sums
     k, along_cosine, along_sine, normal_cosine, normal_sine = harmonic
+    share = 1.0 / k  # one division in place of four
     wave, slope = normal_cosine * c - normal_sine * s, normal_cosine * s + normal_sine * c
-    z, vz, az = z + wave / (k * k), vz + slope / k, az + wave
+    z, vz, az = z + wave * share * share, vz + slope * share, az + wave
     wave, slope = along_cosine * c - along_sine * s, along_cosine * s + along_sine * c
-    return Sums(z, vz, az, x + wave / (k * k), vx + slope / k, ax + wave)
+    return Sums(z, vz, az, x + wave * share * share, vx + slope * share, ax + wave)
 
 
 @compiled_inline
