@@ -1,12 +1,16 @@
 """A copy of the project on a small config, and Snakemake run in it."""
 
+import atexit
+import json
 import os
 import re
 import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 import yaml
@@ -69,9 +73,36 @@ def permuted(value):
     return value
 
 
-# Environment and options with which Snakemake runs all jobs in its own process.
-IN_PROCESS = {"PYTHONPATH": str(ROOT / "tests/inprocess")}
+# The folder of a Snakemake plugin, and the options with which it runs all jobs in Snakemake's own process.
+IN_PROCESS_PLUGIN = str(ROOT / "tests/inprocess")
 IN_PROCESS_OPTIONS = ("--cores", "1", "--jobs", "1", "--executor", "inprocess")
+
+
+@cache
+def forks() -> subprocess.Popen:
+    """The process of snakemake_forks.py, which ends before this one."""
+    process = subprocess.Popen(
+        [sys.executable, str(ROOT / "tests/snakemake_forks.py")],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONPATH": IN_PROCESS_PLUGIN},
+    )
+    atexit.register(process.communicate)
+    return process
+
+
+def call_snakemake(*arguments: str, folder: Path = ROOT) -> subprocess.CompletedProcess:
+    """Run Snakemake in a folder; stdout contains its output and the output of its jobs."""
+    with tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
+        command = {"arguments": arguments, "folder": str(folder), "environment": clean_environment()}
+        print(json.dumps(command | {"output": output.name}), file=forks().stdin, flush=True)
+        return subprocess.CompletedProcess(arguments, int(forks().stdout.readline()), output.read())
+
+
+def clean_environment() -> dict[str, str]:
+    """The environment without what a Snakemake that runs these tests has set."""
+    return {name: value for name, value in os.environ.items() if not name.startswith("SNAKEMAKE")}
 
 
 @dataclass(frozen=True)
@@ -80,7 +111,7 @@ class Project:
 
     folder: Path
     overlay: dict = field(default_factory=dict)
-    environment: dict[str, str] = field(default_factory=dict)  # in addition to the overlay of the tests
+    environment: dict[str, str] = field(default_factory=dict)  # in addition to the environment of the tests
 
     def snakemake(self, *arguments: str) -> subprocess.CompletedProcess:
         """Run Snakemake on the overlay; stdout contains its output and the output of its jobs."""
@@ -92,8 +123,10 @@ class Project:
         return "--configfile", "overlay.yaml"
 
     def called(self, *arguments: str) -> subprocess.CompletedProcess:
-        """Run Snakemake with these arguments."""
-        return self.given_to(subprocess.run, *arguments, check=False)
+        """Run Snakemake with these arguments: in a new process if the project has an environment of its own."""
+        if self.environment:
+            return self.given_to(subprocess.run, *arguments, check=False)
+        return call_snakemake(*arguments, folder=self.folder)
 
     def started(self, *arguments: str) -> subprocess.Popen:
         """Start Snakemake with these arguments in a new process group, as a terminal does.
@@ -108,14 +141,13 @@ class Project:
 
     def given_to(self, function, *arguments: str, **options):
         """Call a function of `subprocess` with the command line of Snakemake and these arguments."""
-        environment = {name: value for name, value in os.environ.items() if not name.startswith("SNAKEMAKE")}
         return function(
             [sys.executable, "-m", "snakemake", *arguments],
             cwd=self.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            env=environment | self.environment,
+            env=clean_environment() | self.environment,
             **options,
         )
 
@@ -125,8 +157,7 @@ class Project:
 
     def make_in_process(self, *targets: str) -> None:
         """As `make`, in a fifth of the processor time: Python starts once, not once per job."""
-        quick = Project(self.folder, self.overlay, self.environment | IN_PROCESS)
-        quick.make(*IN_PROCESS_OPTIONS, *targets)
+        self.make(*IN_PROCESS_OPTIONS, *targets)
 
     def planned(self, *targets: str) -> dict[str, int]:
         """Number of jobs by rule that a dry run announces."""

@@ -1,13 +1,10 @@
 """Files of measurements: good ones in several spellings, and bad ones, each rejected with its line and a remedy."""
 
 import re
-import subprocess
-import sys
-import time
 
 import pytest
 import yaml
-from project import ROOT
+from project import call_snakemake
 
 import make
 from calibration.measurements import MeasurementError, first_comments, parse, read_text
@@ -152,10 +149,7 @@ def test_parts_that_slide_down_a_steep_track_may_be_faster_than_the_plate():
 
 
 def run_snakemake(overlay, *targets):
-    command = [sys.executable, "-m", "snakemake", "--dry-run", *targets, "--configfile", str(overlay)]
-    begin = time.perf_counter()
-    run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    return run, time.perf_counter() - begin
+    return call_snakemake("--dry-run", *targets, "--configfile", str(overlay))
 
 
 def test_a_bad_file_ends_snakemake_before_any_job(tmp_path):
@@ -163,14 +157,11 @@ def test_a_bad_file_ends_snakemake_before_any_job(tmp_path):
         "prefix: mine\nmodel: {frequency: 60.0}\ncalibration: {measurements: mine.csv}\n"
     )
     (tmp_path / "mine.csv").write_text(f"{HEAD}\n30,2\n40,5\n50,6\n")
-    run, seconds = run_snakemake(tmp_path / "mine.yaml", "results/mine/calibration.md")
+    run = run_snakemake(tmp_path / "mine.yaml", "results/mine/calibration.md")
     assert run.returncode != 0
-    assert "mine.csv:2: velocity = 2 m/s is impossible" in run.stdout + run.stderr
-    assert "cm/s: divide by 100" in run.stdout + run.stderr
-    # As fast as any other faulty config on this machine.
-    (tmp_path / "other.yaml").write_text("prefix: 1\n")
-    _, other = run_snakemake(tmp_path / "other.yaml", "results/mine/calibration.md")
-    assert seconds < 2.0 * other + 1.0
+    assert "mine.csv:2: velocity = 2 m/s is impossible" in run.stdout
+    assert "cm/s: divide by 100" in run.stdout
+    assert "Building DAG" not in run.stdout
 
 
 def test_a_file_of_measurements_on_the_command_line_replaces_that_of_the_overlay(tmp_path):
@@ -192,9 +183,9 @@ def test_a_file_of_measurements_on_the_command_line_replaces_that_of_the_overlay
 )
 def test_a_config_without_measurements_refuses_a_calibration(target, tmp_path):
     (tmp_path / "mine.yaml").write_text("prefix: mine\nmodel: {frequency: 60.0}\n")
-    run, _ = run_snakemake(tmp_path / "mine.yaml", target)
+    run = run_snakemake(tmp_path / "mine.yaml", target)
     assert run.returncode != 0
-    assert "a calibration needs measured velocities" in run.stdout + run.stderr
+    assert "a calibration needs measured velocities" in run.stdout
 
 
 def test_the_caption_of_the_figure_needs_the_tables_of_this_figure_only(tmp_path):
@@ -202,7 +193,7 @@ def test_the_caption_of_the_figure_needs_the_tables_of_this_figure_only(tmp_path
         "prefix: mine\nmodel: {frequency: 60.0}\ncalibration: {measurements: mine.csv}\n"
     )
     (tmp_path / "mine.csv").write_text(f"{HEAD}\n{GOOD}")
-    run, _ = run_snakemake(tmp_path / "mine.yaml", "results/mine/captions/calibration.rst")
-    assert run.returncode == 0, run.stderr
-    jobs = dict(re.findall(r"^(\w+) +(\d+)$", run.stdout + run.stderr, re.MULTILINE))
+    run = run_snakemake(tmp_path / "mine.yaml", "results/mine/captions/calibration.rst")
+    assert run.returncode == 0, run.stdout
+    jobs = dict(re.findall(r"^(\w+) +(\d+)$", run.stdout, re.MULTILINE))
     assert jobs.keys() == {"calibration", "calibration_prediction", "caption_on_request", "total"}

@@ -6,7 +6,7 @@ from functools import partial
 
 import pytest
 import yaml
-from project import IN_PROCESS, IN_PROCESS_OPTIONS, ROOT, Project
+from project import IN_PROCESS_OPTIONS, IN_PROCESS_PLUGIN, ROOT, Project
 
 MOST = 2  # builds at a time
 
@@ -74,7 +74,7 @@ def build(folder, name: str):
         overlays.append(str(folder / f"{stem}.yaml"))
         (folder / f"{stem}.yaml").write_text(yaml.safe_dump(content, sort_keys=False))
     (folder / name).mkdir()
-    project = Project(folder / name, environment=IN_PROCESS | {"QUICK_FIGURES": "1"})
+    project = Project(folder / name, environment={"PYTHONPATH": IN_PROCESS_PLUGIN, "QUICK_FIGURES": "1"})
     options = (*IN_PROCESS_OPTIONS, "--snakefile", str(ROOT / "Snakefile"))
     run = project.called(*options, "--configfile", *overlays)
     captions = (folder / name / f"results/{name}/captions").glob("*.rst")

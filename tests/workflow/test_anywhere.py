@@ -2,10 +2,9 @@
 
 import re
 import subprocess
-import sys
 
 import pytest
-from project import ROOT, copy_project
+from project import ROOT, call_snakemake, copy_project
 
 MODULE = """
 module conveyor:
@@ -25,13 +24,8 @@ conveyor:
 """
 
 
-def called(folder, *arguments):
-    command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
-    return subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-
-
 def snakemake(folder, *arguments):
-    run = called(folder, *arguments)
+    run = call_snakemake("--cores", "2", *arguments, folder=folder)
     assert run.returncode == 0, run.stdout
     return run.stdout
 
@@ -110,7 +104,7 @@ def test_rules_of_the_module_with_changes(tmp_path):
 
 def test_nested_values_of_the_command_line_reach_the_module(tmp_path):
     (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + "use rule * from conveyor")
-    run = called(tmp_path, "--dry-run", "figures/fig05.pdf", "--config", "model={damping: -0.2}")
+    run = call_snakemake("--dry-run", "figures/fig05.pdf", "--config", "model={damping: -0.2}", folder=tmp_path)
     assert "model.damping = -0.2 should be at least 0" in run.stdout
 
 
@@ -143,7 +137,7 @@ def test_a_module_from_a_git_repository(tmp_path, repository):
 
 def test_the_snakefile_alone_names_the_entry_for_git(tmp_path, repository):
     (tmp_path / "Snakefile").write_text(FROM_GIT.format(repository=repository, path="Snakefile"))
-    run = called(tmp_path, "--dry-run", "figures/mine/fig03.pdf")
+    run = call_snakemake("--dry-run", "figures/mine/fig03.pdf", folder=tmp_path)
     assert run.returncode != 0
     assert 'name path="workflow/Snakefile"' in run.stdout
     assert "Traceback" not in run.stdout
