@@ -5,15 +5,17 @@ evaluation for each order, and all proofs together would take 3.1 times as long.
 the midpoint is the unevaluated sum of two floats, which has about 30 digits (Dekker 1971).
 """
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
-from flint import arb
+from flint import arb, ctx
 
 from ..solver.jit import compiled, compiled_inline, fma
 
-# Components of a step; the columns of perturbations follow, two components each.
-W, Y, COSINE, SINE, PHASE, MOTION = range(6)
 # Parts of a number: the midpoint is HIGH + LOW.
 HIGH, LOW, RADIUS = range(3)
+# Operations on two series, or on a series and a constant.
+PRODUCT, SUM, DIFFERENCE, MULTIPLE = range(4)
 # Relative rounding error of a product in double-double arithmetic. In an arithmetic of `bits` bits it is taken to be
 # 2^(SPARE_BITS - bits). Radii are enlarged by the factor WIDER, because they have rounding errors, too.
 ROUNDING, SPARE_BITS, WIDER = 1e-30, 4, 1.0 + 1e-6
@@ -42,10 +44,10 @@ def two_product(a, b):
 
 
 @compiled_inline
-def add(a, b):
-    """a + b of two numbers (high, low, radius)."""
-    high, low = two_sum(a[HIGH], b[HIGH])
-    return high, low + a[LOW] + b[LOW], a[RADIUS] + b[RADIUS]
+def add(a, b, sign):
+    """a + b or, if the sign is -1, a - b of two numbers (high, low, radius)."""
+    high, low = two_sum(a[HIGH], sign * b[HIGH])
+    return high, low + a[LOW] + sign * b[LOW], a[RADIUS] + b[RADIUS]
 
 
 @compiled_inline
@@ -94,43 +96,65 @@ def convolve(a, b, n, rounding):
 
 
 @compiled
-def enclose_series(series, twice_exponent, gamma, damping, stiffness, softening, bits):
-    """Fill in the coefficients from order 1 on, for the rates that `taylor.rates` states.
+def fill_in(series, operations, constants, rates, bits):
+    """Fill in the coefficients from order 1 on.
 
     Parameters
     ----------
-    series : float64, shape (5 + 2 columns, 3, order + 1): motion and perturbations, their coefficients of order 0 given
-    twice_exponent : 2p
-    gamma, damping, stiffness, softening : γ, -β, -κ and -p κ, as from `parts_of`
+    series : float64, shape (components + operations, 3, order + 1), the components' coefficients of order 0 given
+    operations : their kinds, and the places of their operands among the series or constants, shape (operations, 3)
+    constants : as from `parts_of`
+    rates : places of the components' derivatives
     bits : of the arithmetic in which the coefficients are proved
     """
     rounding = max(ROUNDING, 2.0 ** (SPARE_BITS - bits))
-    length = series.shape[2]
-    w, y, cosine, sine = series[W], series[Y], series[COSINE], series[SINE]
-    square, driven = np.zeros((3, length)), np.zeros((3, length))
-    # w³ … w^(2p-1), one after the other.
-    powers = np.zeros((max(twice_exponent - 3, 0), 3, length))
-    drifts = np.zeros((series.shape[0], 3, length))
-    for n in range(length - 1):
-        set_coefficient(square, n, convolve(w, w, n, rounding), rounding)
-        set_coefficient(driven, n, convolve(w, cosine, n, rounding), rounding)
-        stiff = w if twice_exponent == 2 else square
-        for k in range(len(powers)):
-            set_coefficient(powers[k], n, convolve(stiff, w, n, rounding), rounding)
-            stiff = powers[k]
-        push = add(coefficient(w, n), multiply(coefficient(driven, n), gamma, rounding))
-        spring = multiply(convolve(stiff, square, n, rounding), stiffness, rounding)
-        integrate(y, n, add(push, spring), rounding)
-        turned = convolve(w, sine, n, rounding)
-        integrate(cosine, n, (-turned[HIGH], -turned[LOW], turned[RADIUS]), rounding)
-        integrate(sine, n, coefficient(driven, n), rounding)
-        integrate(series[PHASE], n, coefficient(w, n), rounding)
-        for row in range(MOTION, len(series), 2):
-            eta, zeta, drift = series[row], series[row + 1], drifts[row]
-            damped = multiply(coefficient(eta, n), damping, rounding)
-            set_coefficient(drift, n, add(coefficient(zeta, n), damped), rounding)
-            pull = multiply(convolve(stiff, eta, n, rounding), softening, rounding)
-            integrate(eta, n, convolve(w, drift, n, rounding), rounding)
-            integrate(zeta, n, add(pull, coefficient(driven, n)) if row == MOTION + 4 else pull, rounding)
-        twice = add(coefficient(y, n), multiply(coefficient(square, n), damping, rounding))
-        integrate(w, n, (0.5 * twice[HIGH], 0.5 * twice[LOW], 0.5 * twice[RADIUS]), rounding)
+    for n in range(series.shape[2] - 1):
+        for k in range(len(operations)):
+            kind, a, b = operations[k]
+            if kind == PRODUCT:
+                value = convolve(series[a], series[b], n, rounding)
+            elif kind == MULTIPLE:
+                value = multiply(coefficient(series[a], n), constants[b], rounding)
+            else:
+                sign = 1.0 if kind == SUM else -1.0
+                value = add(coefficient(series[a], n), coefficient(series[b], n), sign)
+            set_coefficient(series[len(rates) + k], n, value, rounding)
+        for k in range(len(rates)):
+            integrate(series[k], n, coefficient(series[rates[k]], n), rounding)
+
+
+class Recorded:
+    """A series in a formula. Its operations are recorded, so that compiled code can repeat them for each order."""
+
+    def __init__(self, place: int, rows: list, constants: list):
+        self.place, self.rows, self.constants = place, rows, constants
+
+    def record(self, kind: int, other: int) -> "Recorded":
+        """The result of an operation with the series or constant at another place."""
+        self.rows.append((kind, self.place, other))
+        return Recorded(len(self.rows) - 1, self.rows, self.constants)
+
+    def __add__(self, other: "Recorded") -> "Recorded":
+        return self.record(SUM, other.place)
+
+    def __sub__(self, other: "Recorded") -> "Recorded":
+        return self.record(DIFFERENCE, other.place)
+
+    def __mul__(self, other: "Recorded | arb") -> "Recorded":
+        if isinstance(other, Recorded):
+            return self.record(PRODUCT, other.place)
+        self.constants.append(parts_of(other))
+        return self.record(MULTIPLE, len(self.constants) - 1)
+
+
+def enclose_series(rates: Callable[[Sequence], Sequence], initial: Sequence[arb], order: int) -> np.ndarray:
+    """Candidates for the series of the solutions of x' = rates(x) from all points of `initial`.
+
+    Returns float64, shape (components, 3, order + 1); the rates consist of sums, differences and products.
+    """
+    rows, constants = [None] * len(initial), []
+    places = [rate.place for rate in rates([Recorded(k, rows, constants) for k in range(len(initial))])]
+    series = np.zeros((len(rows), 3, order + 1))
+    series[: len(initial), :, 0] = [parts_of(value) for value in initial]
+    fill_in(series, np.array(rows[len(initial) :]), np.array(constants), np.array(places), ctx.prec)
+    return series[: len(initial)]

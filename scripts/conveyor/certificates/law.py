@@ -3,11 +3,10 @@
 With lengths in g/ω², velocities in g/ω and the phase φ of the excitation as time, penetration δ = w² and the quantity
 Y = δ' + β δ of the stroboscopic map obey, in contact with dφ = w ds,
 
-    dw/ds = (Y - β w²)/2,   dY/ds = w (1 + γ cos φ) - κ w^(2p+1),   dφ/ds = w,
+    dw/ds = (Y - β w²)/2,   dY/ds = w (1 + γ z̈(φ)) - κ w^(2p+1),   dφ/ds = w,
 
-and in flight δ'' = 1 + γ cos φ, with γ = â sin(angle)/g, β = d_c/(m ω) and κ = (k_c/(m g)) (g/ω²)^p. Gravity g is its
-component normal to the track. The certificates write the plate's cosine themselves, because a proof needs balls, and
-`solver.plate` computes with floating-point numbers.
+and in flight δ'' = 1 + γ z̈(φ), with γ = â sin(angle)/g, β = d_c/(m ω) and κ = (k_c/(m g)) (g/ω²)^p. Gravity g is its
+component normal to the track. The plate's motion z(φ) is that of `solver.plate`, whose functions also take balls.
 """
 
 import math
@@ -16,7 +15,11 @@ from typing import NamedTuple
 from flint import arb
 
 from ..solver.model import Conveyor
+from ..solver.plate import Plate
 from .balls import exactly
+
+# The plate's motion normal to the track at γ = 1.
+PLATE = Plate(omega=1, a_x=0, a_z=1, cos_shift=1, sin_shift=0, harmonics=0, waves=0)
 
 # Digits after the decimal point of an angle in degrees that is read as a decimal number of degrees.
 DIGITS_OF_DEGREES = 9

@@ -11,11 +11,10 @@ from typing import NamedTuple
 from flint import arb, arb_mat
 
 from .balls import Refused
-from .double_double import PHASE, W, Y
 from .flight import Flight
 from .law import System
 from .roots import bracket_first_root, sharpen
-from .taylor import Step, make_step
+from .taylor import PHASE, Step, W, Y, make_step
 
 # Flights and steps after which a motion is given up.
 MAX_PIECES = 2000

@@ -3,11 +3,11 @@
 The equations are polynomial in (w, Y, cos φ, sin φ), and so are the equations of perturbations (η, ζ) of (δ, Y) at
 fixed time,
 
-    η' = w (ζ - β η),   ζ' = -p κ w^(2p-1) η,   and for the derivative by γ, ζ' = … + w cos φ.
+    η' = w (ζ - β η),   ζ' = -p κ w^(2p-1) η,   and for the derivative by γ, ζ' = … + w z̈(φ).
 
-`rates` states them once, for three kinds of arithmetic. On truncated series it proves the coefficients that
-`double_double` finds. On bounds of the coefficients it gives the terms above the order. On norms it gives a bound on
-the remainder.
+`rates` states them once, for four kinds of arithmetic. `double_double` repeats its operations to compute candidates for
+the coefficients. On truncated series it proves them. On bounds of the coefficients it gives the terms above the order.
+On norms it gives a bound on the remainder.
 
 The remainder. Let ‖f‖ = Σ |f_n| hⁿ, so that ‖f g‖ ≤ ‖f‖ ‖g‖ and |f(s)| ≤ ‖f‖ for |s| ≤ h. Let x̄ be the exact solution's
 series up to order N, and T(x) = x0 + ∫ rates(x) ds. If
@@ -25,10 +25,13 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat, arb_poly, arb_series, ctx
 
+from ..solver import plate
 from .balls import Refused
-from .double_double import COSINE, MOTION, PHASE, enclose_series, parts_of
-from .law import System
+from .double_double import enclose_series
+from .law import PLATE, System
 
+# Components of a step; the columns of perturbations follow, two components each.
+W, Y, COSINE, SINE, PHASE, MOTION = range(6)
 # Attempts with a bound, each twice as large as the last one, and with a step, each half as long.
 DOUBLINGS, HALVINGS = 4, 20
 # Factor for the rounding errors of a sum of three floats.
@@ -42,22 +45,22 @@ def rates(system: System, x: Sequence, columns: int) -> list:
     """
     law, gamma, _ = system
     w, y, cosine, sine = x[:PHASE]
-    square, driven = w * w, w * cosine
+    square, lift_w = w * w, w * plate.lift_share(PLATE, sine, cosine)
     stiff = w if law.twice_exponent == 2 else square  # w^(2p-1)
     for _ in range(law.twice_exponent - 3):
         stiff = stiff * w
     derivatives = [
         (y - square * law.beta) * arb(0.5),
-        w + driven * gamma - stiff * square * law.kappa,
+        w + lift_w * gamma - stiff * square * law.kappa,
         w * sine * arb(-1),
-        driven,
+        w * cosine,
         w,
     ]
     softening = law.kappa * law.twice_exponent / -2
     for column in range(columns):
         eta, zeta = x[MOTION + 2 * column : MOTION + 2 * column + 2]
         pull = stiff * eta * softening
-        derivatives += [w * (zeta - eta * law.beta), pull + driven if column == 2 else pull]
+        derivatives += [w * (zeta - eta * law.beta), pull + lift_w if column == 2 else pull]
     return derivatives
 
 
@@ -108,14 +111,10 @@ def expand(system: System, initial: Sequence[arb], columns: int) -> tuple[list[a
     -------
     series, and bounds on the moduli of their coefficients, float64, shape (components, order + 1)
     """
-    law, gamma, (order, _) = system
+    order = system.accuracy.order
     if ctx.cap <= order:
         raise ValueError(f"series of order {order} in a context for {ctx.cap - 1}")
-    rows = np.zeros((len(initial), 3, order + 1))
-    rows[:, :, 0] = [parts_of(value) for value in initial]
-    minus_p = arb(law.twice_exponent) / -2
-    numbers = gamma, -law.beta, -law.kappa, minus_p * law.kappa
-    enclose_series(rows, law.twice_exponent, *map(parts_of, numbers), ctx.prec)
+    rows = enclose_series(lambda x: rates(system, x, columns), initial, order)
     sizes = SLACK * np.abs(rows).sum(axis=1)
     candidates = [
         arb_series([value, *high[1:]]) + arb_series([0, *low[1:]]) + arb_series([0, *radius[1:]]) * arb(0, 1)

@@ -81,7 +81,7 @@ def find_forces_of_all(kind, lanes, memory):
         # In a loop of its own, because powers take one number at a time.
         for k in range(lanes):
             lane = np.uint64(k)
-            gap = memory[place(Z, lane)] + memory[place(PLATE_Z, lane)] * memory[place(SHAPES, lane)]
+            gap = memory[place(Z, lane)] - memory[place(PLATE_Z, lane)] * memory[place(SHAPES, lane)]
             memory[place(POWER, lane)] = power_of_depth(-gap, memory[place(EXPONENT, lane)])
     changed = False
     for k in range(lanes):
@@ -130,8 +130,9 @@ def prepare(kind, parameters, flat, memory, lane):
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     a_z, a_x = parameters[model.ACCELERATION] * sine_angle, parameters[model.ACCELERATION] * cosine_angle
     memory[OMEGA, lane], memory[PSI0, lane] = omega, parameters[model.PSI0]
-    memory[PLATE_Z, lane], memory[PLATE_VZ, lane] = a_z / (omega * omega), a_z / omega
-    memory[PLATE_VX, lane], memory[PLATE_AX, lane] = a_x / omega, a_x
+    amplitudes = plate.amplitudes(a_x, a_z, omega)
+    memory[PLATE_Z, lane], memory[PLATE_VZ, lane] = amplitudes.z, amplitudes.vz
+    memory[PLATE_VX, lane], memory[PLATE_AX, lane] = amplitudes.vx, amplitudes.ax
     memory[STIFFNESS, lane], memory[DAMPING, lane] = coefficients_per_mass(parameters)
     memory[EXPONENT, lane] = parameters[model.EXPONENT]
     memory[FRICTION, lane] = parameters[model.FRICTION]
@@ -146,7 +147,7 @@ def prepare(kind, parameters, flat, memory, lane):
     shapes = shapes_at(kind, flat, np.uint64(lane), parameters[model.PSI0])
     write_shapes(flat, np.uint64(lane), shapes)
     memory[LAST_SLIP, lane] = memory[PLATE_VX, lane] * shapes.vx
-    surface = -memory[PLATE_Z, lane] * shapes.z
+    surface = memory[PLATE_Z, lane] * shapes.z
     memory[Z, lane] = surface if math.isnan(parameters[model.Z0]) else parameters[model.Z0]
     memory[VZ, lane] = parameters[model.VZ0]
     memory[MAX_GAP, lane] = memory[Z, lane] - surface

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..solver import plate
 from ..solver.contact_law import spring_and_damper
 from ..solver.model import EXPONENT, PARAMETERS, TENSION, TENSION_ALLOW
 from .leg import BACKWARD, FLIGHT, FORWARD, STICK, Leg, Task
@@ -25,13 +26,20 @@ def systems(exponent: float, tolerance: float) -> dict[int, Any]:
 
     x, vx, z, vz = hy.make_vars("x", "vx", "z", "vz")
     p = {name: hy.par[k] for k, name in enumerate(PARAMETERS)}
-    omega = 2.0 * np.pi * p["frequency"]
-    phase = omega * hy.time + p["psi0"]
-    along = phase + p["phase_shift"]
-    a_x, a_z = p["acceleration"] * hy.cos(p["angle"]), p["acceleration"] * hy.sin(p["angle"])
+    c = plate.Plate(
+        2.0 * np.pi * p["frequency"],
+        p["acceleration"] * hy.cos(p["angle"]),
+        p["acceleration"] * hy.sin(p["angle"]),
+        hy.cos(p["phase_shift"]),
+        hy.sin(p["phase_shift"]),
+        0,
+        0,
+    )
+    phase = c.omega * hy.time + p["psi0"]
+    turn = c, hy.sin(phase), hy.cos(phase)
     # Gap and its rate, slip velocity, and the acceleration of the plate along the track, as expressions.
-    gap, rate = z + a_z / omega**2 * hy.cos(phase), vz - a_z / omega * hy.sin(phase)
-    slip, forward = a_x / omega * hy.sin(along) - vx, a_x * hy.cos(along)
+    gap, rate = z - plate.height(*turn), vz - plate.rise(*turn)
+    slip, forward = plate.speed(*turn) - vx, c.a_x * plate.pull_share(*turn)
     push = spring_and_damper(p["stiffness"] * (-gap) ** exponent, p["damping"], -rate) / p["mass"]
     rub = p["friction"] * push
     up, down = hy.event_direction.positive, hy.event_direction.negative

@@ -1,7 +1,6 @@
 """The model for integrators of other libraries: right-hand side, events that end a mode, and the mode that follows."""
 
 import math
-from collections import namedtuple
 from collections.abc import Callable
 
 import numpy as np
@@ -13,14 +12,11 @@ from ..solver.jit import compiled, compiled_inline, copy
 from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth
 from .leg import BACKWARD, FLIGHT, FORWARD, SIGN, STICK
 
-# What the functions of `plate` take from contact.Constants; other integrators take no harmonics.
-Plate = namedtuple("Plate", "omega a_x a_z cos_shift sin_shift harmonics waves")
-
 
 @compiled_inline
 def plate_of(parameters):
     """The Plate of a parameter vector."""
-    return Plate(
+    return plate.Plate(
         2.0 * math.pi * parameters[model.FREQUENCY],
         parameters[model.ACCELERATION] * math.cos(parameters[model.ANGLE]),
         parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),

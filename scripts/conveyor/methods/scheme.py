@@ -5,7 +5,6 @@ constants of its conveyor. All functions are copied into the loops of fixed_step
 """
 
 import math
-from collections import namedtuple
 from typing import NamedTuple
 
 import numpy as np
@@ -29,16 +28,14 @@ RESULTS = 12
 # At the present step: gap (m), forces per mass (m/s²), whether the gap was last seen closed (1 or 0), the slip velocity
 # (m/s) at the last step; only for exponents other than 1 and 1.5, δ^p (m^p) and the plate's Shapes.
 GAP, PUSH, RUB, IN_CONTACT, LAST_SLIP, POWER, SHAPES = range(12, 19)
-# Constants: ω (rad/s), ψ0 (rad), the amplitudes of z_s, ż_s, ẋ_s, ẍ_s; k_c/m, d_c/m, p, μ, μ_s, gravity normal to the
-# track and down along it (m/s²); force_law.least_push and least_rub; cosine and sine of the phase shift.
+# Constants: ω (rad/s), ψ0 (rad), plate.amplitudes; k_c/m, d_c/m, p, μ, μ_s, gravity normal to the track and down along
+# it (m/s²); force_law.least_push and least_rub; cosine and sine of the phase shift.
 OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX, PLATE_AX = range(22, 28)
 STIFFNESS, DAMPING, EXPONENT, FRICTION, STATIC_FRICTION, GRAVITY, DOWNHILL = range(28, 35)
 LEAST_PUSH, LEAST_RUB, COS_SHIFT, SIN_SHIFT = range(35, 39)
 # The numbers of the plate's harmonics, as many as in the packed parameters.
 WAVES = 39
 
-# z_s, ż_s, ẋ_s and ẍ_s at a moment, divided by the amplitudes of the fundamental (z_s by the negative one).
-Shapes = namedtuple("Shapes", "z vz vx ax")
 NO_WAVES = 2  # length of Kind.waves without harmonics: the orders 0 and 1
 
 
@@ -64,22 +61,22 @@ def sine_and_cosine_by(method, phase):
 def shapes_at(kind, memory, lane, phase):
     """The Shapes of a plate at a phase (rad)."""
     sine, cosine = sine_and_cosine_by(kind.method, phase)
-    along, pull = sine, cosine
+    along = sine, cosine
     if kind.tilted:
-        ahead, straight = memory[place(SIN_SHIFT, lane)], memory[place(COS_SHIFT, lane)]
-        along, pull = sine * straight + cosine * ahead, cosine * straight - sine * ahead
+        along = plate.add_phases(sine, cosine, memory[place(SIN_SHIFT, lane)], memory[place(COS_SHIFT, lane)])
+    shapes = plate.shapes(sine, cosine, *along)
     if len(kind.waves) == NO_WAVES:
-        return Shapes(cosine, sine, along, pull)
+        return shapes
     added, s, c = plate.NO_SUMS, sine, cosine
     # A single loop whose bounds are known: LLVM writes it out. Else the loops over the lanes would not become vector
     # code, and steps with two harmonics would take eight times as long as without.
     for order in range(2, len(kind.waves)):
-        s, c = s * cosine + c * sine, c * cosine - s * sine
+        s, c = plate.add_phases(s, c, sine, cosine)
         if kind.waves[order] > 0:
             harmonic = plate.numbers_at(memory, place(kind.waves[order], lane), np.uint64(LANES))
             # The order is known to the compiler, which then divides by a constant.
             added = plate.add_harmonic(added, (float(order), *harmonic[1:]), s, c)
-    return Shapes(cosine + added.z, sine + added.vz, along + added.vx, pull + added.ax)
+    return plate.add_sums(shapes, added)
 
 
 @compiled_inline
@@ -100,7 +97,9 @@ def turn_plate(kind, memory, lane, i, step):
 @compiled_inline
 def written_shapes(shapes, at, stride):
     """The Shapes at a place of an array, whose four numbers have a distance of `stride`."""
-    return Shapes(shapes[at], shapes[at + stride], shapes[at + stride + stride], shapes[at + stride + stride + stride])
+    return plate.Shapes(
+        shapes[at], shapes[at + stride], shapes[at + stride + stride], shapes[at + stride + stride + stride]
+    )
 
 
 @compiled_inline
@@ -122,7 +121,7 @@ def forces(kind, memory, lane, vx, z, vz, shapes, is_raised):
 
     is_raised : whether POWER holds δ^p
     """
-    gap = z + memory[place(PLATE_Z, lane)] * shapes.z
+    gap = z - memory[place(PLATE_Z, lane)] * shapes.z
     exponent = memory[place(EXPONENT, lane)]
     if is_raised:
         power = memory[place(POWER, lane)]

@@ -35,9 +35,19 @@ Sums = namedtuple("Sums", "z vz az x vx ax")
 # The first row of harmonics in a workspace, and its number of lanes.
 WAVES, ONE = np.uint64(HARMONICS), np.uint64(1)
 NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+# Position and velocity normal to the track, velocity and acceleration along it, divided by their amplitudes.
+Shapes = namedtuple("Shapes", "z vz vx ax")
 # Bounds: on position (m), acceleration (m/s²) and its rate (m/s³) normal to the track; on acceleration and its rate
 # along the track, as multiples of a_x and a_x ω.
 Bounds = namedtuple("Bounds", "height lift jerk pull pull_rate")
+# What functions of a phase take of contact.Constants, for other callers; other arithmetic has no harmonics.
+Plate = namedtuple("Plate", "omega a_x a_z cos_shift sin_shift harmonics waves")
+
+
+@compiled_inline
+def add_phases(sine, cosine, s, c):
+    """Sine and cosine of the sum of two phases."""
+    return sine * c + cosine * s, cosine * c - sine * s
 
 
 @compiled_inline
@@ -45,7 +55,7 @@ def multiple(order, sine, cosine):
     """Sine and cosine of a multiple of a phase."""
     s, c = sine, cosine
     for _ in range(order - 1):
-        s, c = s * cosine + c * sine, c * cosine - s * sine
+        s, c = add_phases(s, c, sine, cosine)
     return s, c
 
 
@@ -140,21 +150,18 @@ def height_and_rise(c, sine, cosine):
 
 
 @compiled_inline
-def lift(c, sine, cosine):
-    """Acceleration normal to the track, m/s²."""
+def lift_share(c, sine, cosine):
+    """Acceleration normal to the track, divided by a_z."""
     shape = cosine
     if has_harmonics(c):
         shape = shape + sums_of(c, sine, cosine).az
-    return c.a_z * shape
+    return shape
 
 
 @compiled_inline
-def shapes(c, sine, cosine):
-    """Position and velocity normal to the track, divided by -a_z/ω² and a_z/ω."""
-    if has_harmonics(c):
-        added = sums_of(c, sine, cosine)
-        return cosine + added.z, sine + added.vz
-    return cosine, sine
+def lift(c, sine, cosine):
+    """Acceleration normal to the track, m/s²."""
+    return c.a_z * lift_share(c, sine, cosine)
 
 
 @compiled_inline
@@ -164,8 +171,10 @@ def surface(c, sine, cosine):
     The last bit of the height differs from `height`, because it is divided by ω twice. Results that have been published
     with the one or the other keep their digits.
     """
-    speed_z = c.a_z / c.omega
-    z, vz = shapes(c, sine, cosine)
+    speed_z, z, vz = c.a_z / c.omega, cosine, sine
+    if has_harmonics(c):
+        added = sums_of(c, sine, cosine)
+        z, vz = z + added.z, vz + added.vz
     return -speed_z / c.omega * z, speed_z * vz
 
 
@@ -176,6 +185,24 @@ def rise_between(c, from_sine, from_cosine, sine, cosine):
     if has_harmonics(c):
         turn += sums_of(c, sine, cosine).vz - sums_of(c, from_sine, from_cosine).vz
     return c.a_z / c.omega * turn
+
+
+@compiled_inline
+def amplitudes(a_x, a_z, omega):
+    """The amplitudes of the fundamental by which Shapes are multiplied (m, m/s, m/s, m/s²); the first is negative."""
+    return Shapes(-(a_z / (omega * omega)), a_z / omega, a_x / omega, a_x)
+
+
+@compiled_inline
+def shapes(sine, cosine, sine_along, cosine_along):
+    """The Shapes of the fundamental, for sine and cosine of its phases normal to the track and along it."""
+    return Shapes(cosine, sine, sine_along, cosine_along)
+
+
+@compiled_inline
+def add_sums(shapes, sums):
+    """The Shapes with harmonics."""
+    return Shapes(shapes.z + sums.z, shapes.vz + sums.vz, shapes.vx + sums.vx, shapes.ax + sums.ax)
 
 
 @compiled
@@ -218,7 +245,7 @@ def motion(a_x: float, a_z: float, omega: float, shift: float, harmonics: np.nda
 @compiled_inline
 def ahead(c, sine, cosine):
     """Sine and cosine of the phase of the fundamental along the track, θ + ε."""
-    return sine * c.cos_shift + cosine * c.sin_shift, cosine * c.cos_shift - sine * c.sin_shift
+    return add_phases(sine, cosine, c.sin_shift, c.cos_shift)
 
 
 @compiled_inline

@@ -174,9 +174,9 @@ def test_the_remainder_bounds_the_missing_terms():
         low, high = short.value(component, s), long.value(component, s)
         assert low.overlaps(high)
         assert high.rad() < 1e-15
-    left_out = short.parts[double_double.Y](s) - long.value(double_double.Y, s)
+    left_out = short.parts[taylor.Y](s) - long.value(taylor.Y, s)
     assert not left_out.contains(0)
-    assert abs(left_out) <= short.remainders[double_double.Y]
+    assert abs(left_out) <= short.remainders[taylor.Y]
 
 
 @pytest.mark.parametrize("change", [(slice(None), 0, 3, 1e-24), (slice(None), 2, slice(None), -1e-31)])
@@ -184,9 +184,10 @@ def test_a_false_enclosure_of_a_series_is_refused(monkeypatch, change):
     """Midpoints moved by more than their radii, and radii that are too small."""
     component, part, order, by = change
 
-    def enclose_falsely(rows, *rest):
-        double_double.enclose_series(rows, *rest)
+    def enclose_falsely(*arguments):
+        rows = double_double.enclose_series(*arguments)
         rows[component, part, order] += by
+        return rows
 
     law = law_of(Conveyor())
     start = [arb(0), arb(3.6), arb(2.26)]
