@@ -48,6 +48,11 @@ TABLES = {
     ),
 }
 
+TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)  # a table is compared at the ones looser than its own
+# Largest accepted share of drawn values that change visibly: one in a hundred, or four of the 400 points of a map. It
+# was 0.005 before the maps were computed, and was raised afterwards.
+PIXELS = 0.01
+LINE = 0.005  # visible change as a share of the axis range: a line of 0.25 mm on an axis of 50 mm
 TIGHT, TIGHTER = 1e-13, 3e-14
 # Excitation cycles of each variant and before the first sample of a portrait; number of samples of a portrait.
 CYCLES, SAMPLES = 1000, 20000
@@ -94,7 +99,7 @@ def harden(model: dict) -> dict:
     return model | {"stiffness": HARDER * model["stiffness"], "damping": damping}
 
 
-def variants_of(section: str, settings: dict, tolerances: list[float]) -> list[tuple[str, dict]]:
+def variants_of(section: str, settings: dict) -> list[tuple[str, dict]]:
     """Names and settings of all variants of a table; the config's own variant comes first.
 
     A tolerance that is tighter than the config's is neither cheaper nor needed to judge the choice.
@@ -104,9 +109,8 @@ def variants_of(section: str, settings: dict, tolerances: list[float]) -> list[t
     variants = [(name, settings)]
     if section == "impacts":
         return variants  # closed forms have no tolerance
-    variants += [
-        (name, settings | {"tolerance": tolerance}) for tolerance in tolerances if tolerance > settings["tolerance"]
-    ]
+    looser = [tolerance for tolerance in TOLERANCES if tolerance > settings["tolerance"]]
+    variants += [(name, settings | {"tolerance": tolerance}) for tolerance in looser]
     if needs == "vertical":
         variants.append(("feeding", settings | {"needs": "feeding"}))
     if section == "sweeps":
@@ -139,11 +143,11 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     alike = observables.observe_shifted(shown, full_settings, SHIFTS)
     alike.append(shown.observe(full_settings | {"tolerance": TIGHTER}))
     full_seconds, truth = least_time(lambda: shown.observe(full_settings))
-    robust = observables.robust_values(shown, truth, alike, settings["axes"], budget["line"])
+    robust = observables.robust_values(shown, truth, alike, settings["axes"], LINE)
     work_at = cache(partial(measure_work, parameters[:: max(1, len(parameters) // 50)]))
 
     def row(variant: str, of: dict, seconds: float, found: pd.DataFrame) -> dict:
-        visible = observables.visible_differences(shown, truth, found, settings["axes"], budget["line"])
+        visible = observables.visible_differences(shown, truth, found, settings["axes"], LINE)
         shares = [visible[name][robust[name]].mean() for name in shown.drawn if robust[name].any()]
         steps, sticks = work_at(of["tolerance"])
         return {
@@ -162,13 +166,13 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
             "sticks": sticks,
             "known": float(robust.to_numpy().mean()) if robust.size else np.nan,
             "changed": float(max(shares, default=0.0)),
-            "visible": bool(max(shares, default=0.0) > budget["pixels"]),
+            "visible": bool(max(shares, default=0.0) > PIXELS),
             "chosen": of is settings,
             "reason": budget["reasons"].get(reference) if of is settings else None,
         }
 
     rows = [row(FULL, full_settings, full_seconds, truth)]
-    for variant, of in variants_of(section, settings, budget["tolerances"]):
+    for variant, of in variants_of(section, settings):
         rows.append(row(variant, of, *least_time(lambda of=of: shown.observe(of))))
     return rows
 

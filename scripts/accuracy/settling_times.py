@@ -17,6 +17,8 @@ TABLES = {
     ),
 }
 
+HEIGHTS = (0.0, 0.5e-3)  # m, range of the initial heights; phases are drawn from the whole cycle
+
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of settling times, from the section of the config with model and tolerance."""
@@ -25,7 +27,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     parameters = np.repeat(conveyors, starts)
     # Random heights and phases, the same at every amplitude.
     generator = np.random.default_rng(settings["seed"])
-    parameters["z0"] = np.tile(generator.uniform(*settings["z0"], starts), len(amplitudes))
+    parameters["z0"] = np.tile(generator.uniform(*HEIGHTS, starts), len(amplitudes))
     parameters["psi0"] = np.tile(generator.uniform(0.0, 2.0 * math.pi, starts), len(amplitudes))
     labels = classify(
         parameters, cycles=settings["cycles"], tolerance=settings["tolerance"], threads=threads, progress=progress

@@ -5,6 +5,8 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+PAPER_STEP = 5e-7  # s (Sect. 3)
+EQUAL_ERROR = 1e-9  # of the trajectory, at which the fastest methods are compared, in units of the plate's motion
 OWN = "exact, nothing repeated"  # the solver with every step computed
 
 
@@ -32,18 +34,18 @@ def fastest(runs: pd.DataFrame, error: float) -> pd.Series | None:
     return None if good.empty else good.loc[good.milliseconds.idxmin()]
 
 
-def paper_run(runs: pd.DataFrame, paper_step: float) -> pd.Series:
-    """The run of the paper's method with its step (s)."""
-    return runs[(runs.method == "euler") & np.isclose(runs.step, paper_step)].iloc[0]
+def paper_run(runs: pd.DataFrame) -> pd.Series:
+    """The run of the paper's method with its step."""
+    return runs[(runs.method == "euler") & np.isclose(runs.step, PAPER_STEP)].iloc[0]
 
 
-def factors(runs: pd.DataFrame, paper_step: float, equal_error: float) -> list[Factor]:
+def factors(runs: pd.DataFrame, equal_error: float = EQUAL_ERROR) -> list[Factor]:
     """The solver compared with the paper's run at its error, and with the fastest other method at `equal_error`.
 
     A comparison is left out if no run reaches its error.
     """
     own, others = runs[runs.treatment == OWN], runs[runs.method != "event"]
-    paper = paper_run(runs, paper_step)
+    paper = paper_run(runs)
     pairs = [(paper.trajectory_error, paper), (equal_error, fastest(others, equal_error))]
     found = []
     for error, other in pairs:

@@ -72,13 +72,13 @@ def interpolate_edges(table: pd.DataFrame) -> dict[str, RegularGridInterpolator]
     Raises
     ------
     JobError
-        if a row of the table has no edge, because the ranges of the config are too wide
+        if a row of the table has no edge, because the searched ranges are too wide
     """
     if table.vertical_acceleration.isna().any():
         row = table[table.vertical_acceleration.isna()].iloc[0]
         raise JobError(
             f"no edge was found at the loss {row.loss:.3g}, the group {row.group:.3g} and z0 = {row.z0:g} m; narrow "
-            "identification.ranges, or widen SCAN in scripts/calibration/edges.py"
+            "IDENTIFIED in scripts/calibration/settings.py, or widen SCAN in scripts/calibration/edges.py"
         )
     table = table.sort_values(["loss", "group", "z0"])
     axes = [table[name].unique() for name in ("loss", "group", "z0")]

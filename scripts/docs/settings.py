@@ -10,9 +10,7 @@ from ..pipeline.settings import Model, Name, many, mapping, number
 
 class Companion(TypedDict):
     maps: many(Name, "sweeps over two parameters")
-    opening: Annotated[Name, Field(description="preset with which the page opens")]
     presets: Annotated[dict[Name, Model], Field(description="conveyors of the page", min_length=1)]
-    separation: number("initial distance of the second part", "m", gt=0, le=1)
 
 
 SECTIONS = {

@@ -5,7 +5,7 @@ from typing import Annotated, NotRequired
 from pydantic import AfterValidator, Field, Strict
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import Acceleration, HeightNumber, Line, Name, Period, Reference, Step, interval, number, word
+from ..pipeline.settings import Acceleration, HeightNumber, Line, Name, Period, Reference, interval, number, word
 
 # [amplitude, initial height]
 Portrait = Annotated[tuple[Acceleration, HeightNumber], Strict(False), AfterValidator(list)]
@@ -18,14 +18,8 @@ class FigureSettings(TypedDict, total=False):
     critical_height: HeightNumber
     two_states: interval(Acceleration, "interval with two states of motion")
     first_positive: Acceleration
-    begin: number("time at which the plot begins", "s", ge=0, le=1e6)
-    highest: number("largest frequency of the plot", "Hz", gt=0, le=1e6)
     portraits: Annotated[list[Portrait], Field(min_length=3, max_length=3, description="three phase portraits")]
-    transient: number("time that is left out", "s", ge=0, le=1e6)
     longest_period: Period
-    lowest_exponent: number("lowest Lyapunov exponent of the plot", "1/s", ge=-1e6, le=1e6)
-    paper_step: Step
-    equal_error: number("error at which methods are compared, in units of the plate's motion", gt=0, le=1)
     paper_error: number("error of the paper's fit", "m²", gt=0, le=1)
 
 

@@ -1,11 +1,12 @@
-"""Comparison of the solver with other methods, on the cases of the config."""
+"""Comparison of the solver with other methods, on the cases of the benchmark and the scenes of the config."""
 
 import numpy as np
 import pandas as pd
 import pytest
-from project import ROOT, merged, read_config
+from project import ROOT, read_config
 
 from accuracy import benchmark, precision
+from accuracy.scenes import SCENES
 from conveyor.methods import rivals
 from conveyor.simulation import simulate
 from pipeline import grid
@@ -13,22 +14,14 @@ from pipeline import grid
 CONFIG = read_config()
 
 
-@pytest.fixture(scope="module")
-def cases():
-    solver = {key: CONFIG["solver"][key] for key in ("duration", "step")}
-    return {
-        name: merged({"model": CONFIG["model"]}, solver, case) for name, case in CONFIG["benchmark"]["cases"].items()
-    }
-
-
-def test_benchmark_reaches_its_goals(cases):
-    found = benchmark.columns(cases, CONFIG["solver"]["tolerance"], 1)
+def test_benchmark_reaches_its_goals():
+    cases = benchmark.CASES
+    found = benchmark.columns(CONFIG["model"], CONFIG["solver"]["tolerance"], 1)
     assert set(found["case"][found["chosen"] == "default"]) == set(cases)
     wanted = np.array([cases[name]["wanted"]["error"] for name in found["case"]])
     assert (found["error"] <= wanted).all()
     assert (found["euler_error"] > 1e4 * found["error"]).all()
-    steps = [cases[name]["duration"] / cases[name]["step"] for name in found["case"]]
-    np.testing.assert_array_equal(found["euler_steps"], steps)
+    assert (found["euler_steps"] == benchmark.DURATION / benchmark.STEP).all()
     assert (found["steps"] < 1e-3 * found["euler_steps"]).all()
     # Much faster than the paper's method on any machine; results/benchmark.md has the exact factor.
     assert (found["speed"] > 10.0).all()
@@ -36,12 +29,11 @@ def test_benchmark_reaches_its_goals(cases):
     repeated = dict(zip(found["case"], found["repeated_steps"], strict=True))
     assert repeated["D"] == 0 < repeated["B"]
     template = (ROOT / "workflow/templates/benchmark.md").read_text(encoding="utf-8")
-    settings = {"cases": cases, "repeats": 1}
-    text = benchmark.report(template, found, settings)
+    text = benchmark.report(template, found, 1)
     rows = [line.split(" | ")[0] for line in text.splitlines() if line.startswith("| ") and "Case" not in line]
     assert rows == [f"| {name}" for name in found["case"]]
     slow = {**found, "speed": np.full(len(rows), 1.0)}
-    assert "miss a goal at the default tolerance: A (1 of" in benchmark.report(template, slow, settings)
+    assert "miss a goal at the default tolerance: A (1 of" in benchmark.report(template, slow, 1)
 
 
 @pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
@@ -49,7 +41,7 @@ def compared(request):
     """Work and precision of the solver and of two peers, and the settings."""
     settings = {
         "duration": 1.0,
-        "model": CONFIG["model"] | CONFIG["precision"]["scenes"][request.param],
+        "model": CONFIG["model"] | SCENES[request.param],
         "max_evaluations": CONFIG["precision"]["max_evaluations"],
     }
     with pytest.MonkeyPatch.context() as patch:

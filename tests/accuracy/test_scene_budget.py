@@ -17,9 +17,6 @@ SETTINGS = {
 }
 BUDGET = {
     "points": {"sweeps": 6},
-    "tolerances": [1.0e-4],
-    "pixels": 0.01,
-    "line": 0.005,
     "reasons": {},
 }
 

@@ -18,16 +18,16 @@ RUNS = pd.DataFrame(
 
 
 def test_methods_are_compared_at_an_error_that_both_reach():
-    paper, rival = speed.factors(RUNS, 5e-7, 1e-9)
+    paper, rival = speed.factors(RUNS)
     assert (paper.method, paper.ratio) == ("euler", pytest.approx(300.0))
     assert (rival.method, rival.ratio) == ("fast", pytest.approx(20.0))
 
 
 def test_there_is_no_factor_if_no_run_reaches_the_error():
-    assert [one.method for one in speed.factors(RUNS, 5e-7, 1e-15)] == ["euler"]
+    assert [one.method for one in speed.factors(RUNS, 1e-15)] == ["euler"]
 
 
 def test_failures_do_not_count_as_rivals():
     work = RUNS.assign(outcome=["ok", "ok", "ok", "wrong state", "ok"]).drop(columns="milliseconds")
     runs = speed.successful_runs(work, pd.DataFrame({"seconds": RUNS.milliseconds / 1e3}))
-    assert speed.factors(runs, 5e-7, 1e-9)[1].method == "slow"
+    assert speed.factors(runs)[1].method == "slow"

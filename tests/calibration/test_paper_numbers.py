@@ -17,7 +17,7 @@ from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height, mean_
 from motion import critical
 from pipeline import grid
 from pipeline.rule_log import JobError
-from scripts.calibration.settings import NUMBERS_OF_CLAIMS
+from scripts.calibration.settings import IDENTIFIED, NUMBERS_OF_CLAIMS
 
 CONFIG = read_config()
 MODEL, OWN = CONFIG["model"], CONFIG["identification"]
@@ -36,7 +36,7 @@ NEAR = {
     "model": MODEL,
     "euler": EULER,
     "measured": MEASURED,
-    "ranges": OWN["ranges"] | {"damping": [0.24, 0.253], "stiffness": [65.0, 79.0]},
+    "ranges": IDENTIFIED | {"damping": [0.24, 0.253], "stiffness": [65.0, 79.0]},
     "effort": 0.1,  # four losses and four groups
 }
 PRINTED = searched(NEAR)

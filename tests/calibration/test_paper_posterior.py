@@ -10,9 +10,10 @@ from calibration import paper_posterior as posterior
 from calibration.paper_findings import misfit
 from calibration.paper_numbers import PARAMETERS, searched
 from calibration.search_space import bounds_of, values_at
+from scripts.calibration.settings import IDENTIFIED
 
 CONFIG = read_config()
-MODEL, OWN = CONFIG["model"], CONFIG["identification"]
+MODEL, OWN = CONFIG["model"], {**CONFIG["identification"], "ranges": IDENTIFIED}
 NUMBERS = {
     "state": {"low": -1.0, "high": 1.0},
     "other": {"low": -1.0, "high": 1.0},

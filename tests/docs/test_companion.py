@@ -342,7 +342,7 @@ def test_a_second_part_converges_or_separates(browser):
         browser.open(choice)
         label = browser.driver.find_element(By.ID, "plot-distance").get_attribute("aria-label")
         first, distances[name] = (float(number) for number in re.findall(r"([\d.e-]+) m at", label))
-        assert first == CONFIG["companion"]["separation"]
+        assert first == build.SEPARATION
     assert distances["regular"] < 1e-10
     assert distances["chaos"] > 1e-4
 

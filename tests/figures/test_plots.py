@@ -179,9 +179,9 @@ def test_arrow_and_caption_compare_with_the_fastest_other_method(method, name):
     )
     runs.attrs["duration"] = 0.5
     scenes = {f"{scene}{kind}": runs for scene in work_precision.NAMES for kind in ("", "_times")}
-    figure = work_precision.plot(**scenes, paper_step=5e-7, equal_error=1e-9)
+    figure = work_precision.plot(**scenes)
     for axes in figure.subfigs[0].axes:
         assert [text.get_text() for text in axes.texts if "×" in text.get_text()] == ["300×", "40×"]
     reference = pd.DataFrame({"difference": [1e-13]})
-    found = numbers(**scenes, reference=reference, paper_step=5e-7, equal_error=1e-9)["comparisons"]
+    found = numbers(**scenes, reference=reference)["comparisons"]
     assert [rival_name for *_, rival_name in found] == [name] * 3

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from accuracy.scene_budget import PIXELS
 from conveyor.parameters import FIXED_STEP_METHODS
 from made import RESULTS, ROOT
 
@@ -160,7 +161,7 @@ def test_no_choice_is_more_than_a_notch_tighter_than_it_must_be(result):
         if isinstance(chosen.reason, str):
             continue
         many = chosen["shows"] in ("samples", "spectrum", "strobes")
-        limit = table.attrs["pixels"] if many else max(table.attrs["pixels"], 1.0 / chosen.points)
+        limit = PIXELS if many else max(PIXELS, 1.0 / chosen.points)
         loosest = np.sort(rows[rows.changed <= limit].tolerance)[::-1]
         least = loosest[min(1, len(loosest) - 1)]
         assert chosen.tolerance >= least, f"{name}: take tolerance = {least:g}, or add it to scene_budget.reasons"

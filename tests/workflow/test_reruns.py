@@ -67,7 +67,8 @@ def test_the_companion_after_its_sources(edited, file, old, new):
 
 def test_the_companion_after_its_model(built):
     assert built.planned("docs/companion.html") == {}
-    assert built.under({"companion": {"separation": 1.0e-5}}).planned("docs/companion.html") == {"companion": 1}
+    changed = {"companion": {"presets": {"first": {"z0": 1.0e-5}}}}
+    assert built.under(changed).planned("docs/companion.html") == {"companion": 1}
 
 
 @pytest.mark.parametrize(

@@ -90,13 +90,7 @@ def friction(config: dict, defaults: dict) -> Iterator[str]:
             axes = {key: ends(axis) for key, axis in entry.get("axes", {}).items()}
             changed[f"{section}.{name}"] = entry.get("model", {}) | axes
     changed |= {f"{section}.model": config[section].get("model", {}) for section in ("orbits", "attractors")}
-    changed |= {f"precision.scenes.{name}": model for name, model in config["precision"]["scenes"].items()}
     changed |= {f"companion.presets.{name}": model for name, model in config["companion"]["presets"].items()}
-    for key, runs in (
-        ("benchmark.cases", config["benchmark"]["cases"]),
-        ("published_scenes.further", config["published_scenes"]["further"]),
-    ):
-        changed |= {f"{key}.{name}.model": run["model"] for name, run in runs.items()}
     for key, own in changed.items():
         model = config["model"] | own
         if "static_friction" in model and own.keys() & {"friction", "static_friction"}:
@@ -122,28 +116,19 @@ def sweeps(config: dict, defaults: dict) -> Iterator[str]:
                 )
 
 
-def runs_with_step(config: dict, defaults: dict) -> Iterator[tuple[str, float, float, float]]:
+def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
     """The runs with a fixed step: the key of the step, the step (s), the duration (s), the frequency (Hz)."""
-
-    def key(place: str, entry: dict) -> str:
-        return f"{place}.step" if "step" in entry else f"solver.step (of {place})"
-
     for section in METHOD_SECTIONS:
         for name, entry in config[section].items():
+            key = f"{section}.{name}.step" if "step" in entry else f"solver.step (of {section}.{name})"
             for variant in variants(name, entry).values():
                 filled = fill_defaults(config, section, variant)
                 for frequency in values_of(filled, "frequency") if "step" in filled else ():
-                    yield key(f"{section}.{name}", entry), filled["step"], filled["duration"], frequency
-    if is_own_conveyor(defaults, config):
-        return  # the comparisons of methods below are the paper's
-    frequency = config["model"]["frequency"]
-    for name, case in config["benchmark"]["cases"].items():
-        run = config["solver"] | case
-        yield key(f"benchmark.cases.{name}", case), run["step"], run["duration"], frequency
+                    yield key, filled["step"], filled["duration"], frequency
 
 
 def steps(config: dict, defaults: dict) -> Iterator[str]:
-    for key, step, duration, frequency in runs_with_step(config, defaults):
+    for key, step, duration, frequency in runs_with_step(config):
         given = f"{key} = {step!r} s"
         largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
         whole = max(1, round(duration / step))
@@ -193,11 +178,6 @@ def times(config: dict, defaults: dict) -> Iterator[str]:
         if entry["times"]["stop"] > duration:
             key = f"signals.{name}.times.stop = {entry['times']['stop']!r} s"
             yield f"{key} is beyond the duration of {duration!r} s; take less, or give signals.{name}.duration"
-    for name, case in config["benchmark"]["cases"].items():
-        duration = (config["solver"] | case)["duration"]
-        if case["compared"] > duration:
-            key = f"benchmark.cases.{name}.compared = {case['compared']!r} s"
-            yield f"{key} is beyond the duration of {duration!r} s; give less"
     cycle = 1.0 / min(config["model"]["frequency"], config["drive"]["bounds"]["frequency"][0])
     for key, longest in (
         ("transit.longest", config["transit"]["longest"]),
@@ -230,7 +210,7 @@ def dimensions(config: dict, defaults: dict) -> Iterator[str]:
 
 def unknown_references(config: dict, defaults: dict) -> Iterator[str]:
     """Names of tables, entries and presets that the config does not have."""
-    single, companion = by_methods(config), config["companion"]
+    single = by_methods(config)
     tables, fitted = references(single), single["critical"]
     used = [
         (f"{user}.{name}.{key}.{role}", table, tables)
@@ -244,7 +224,6 @@ def unknown_references(config: dict, defaults: dict) -> Iterator[str]:
     used += [("sensitivity.critical", config["sensitivity"]["critical"], fitted)]
     for user in ("companion", "map_check"):
         used += [(f"{user}.maps[{place}]", name, single["sweeps"]) for place, name in enumerate(config[user]["maps"])]
-    used += [("companion.opening", companion["opening"], companion["presets"])]
     used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
     for key, name, known in used:
         if name not in known:

@@ -11,7 +11,7 @@ from typing import Any
 import yaml
 from pydantic import ValidationError
 
-from .entries import ENTRIES
+from .entries import ENTRIES, FIGURES
 from .model import MODEL
 from .schema import options_of, schema_at, unit_of
 
@@ -26,9 +26,15 @@ NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 # Settings of earlier versions that nobody needed to change. The keys of each section, by the module of scripts/ in
 # which they are constants.
 CONSTANTS = {
+    "accuracy/benchmark": {"benchmark": "cases"},
     "accuracy/map_check": {"map_check": "boundary seed tolerance close repeats significant accepted"},
     "accuracy/precision": {"precision": "sample_interval tolerances steps peers seconds"},
     "accuracy/reference_check": {"precision": "reference"},
+    "accuracy/scene_budget": {"scene_budget": "tolerances pixels line"},
+    "accuracy/scenes": {"precision": "scenes", "": "published_scenes"},
+    "accuracy/settling_times": {"settling_times": "z0"},
+    "accuracy/speed": {"figures.NAME.settings": "paper_step equal_error"},
+    "accuracy/stability": {"stability": "contact"},
     "accuracy/stability_estimates": {"": "stability_estimates"},
     "accuracy/theory": {"": "theory"},
     "calibration/edges": {"identification": "contacts heights edges"},
@@ -43,7 +49,14 @@ CONSTANTS = {
     "calibration/predicted": {"calibration": "outliers"},
     "calibration/prediction": {"calibration": "beyond"},
     "calibration/study": {"": "calibration_study"},
+    "calibration/settings": {"identification": "ranges"},
     "dimensions/portraits": {"dimensions.NAME": "interval octaves theiler largest_error"},
+    "docs/companion/build": {"companion": "opening separation"},
+    "figures/plots/bifurcation": {"figures.NAME.settings": "lowest_exponent"},
+    "figures/plots/fig05": {"figures.NAME.settings": "begin"},
+    "figures/plots/fig06": {"figures.NAME.settings": "highest"},
+    "figures/plots/fig23": {"figures.NAME.settings": "transient"},
+    "figures/plots/stability": {"stability": "paper_step"},
     "motion/critical": {"critical.NAME": "resolution"},
     "motion/spectra": {"spectra.NAME": "last samples_per_cycle"},
     "operating/drift": {"drift": "forgotten lengths"},
@@ -58,7 +71,7 @@ CONSTANTS = {
     },
     "orbits/estimates": {"estimates.NAME": "samples"},
     "orbits/seeds": {"orbits": "cycles"},
-    "orbits/settings": {"": "lyapunov"},
+    "orbits/settings": {"": "lyapunov", "certificates": "also"},
     "orbits/witnesses": {"": "witnesses"},
     "sensitivity/curves": {"sensitivity.curves": "amplitude step"},
     "sensitivity/derivatives": {"sensitivity": "rest"},
@@ -67,13 +80,19 @@ CONSTANTS = {
 }
 # Sections and settings of earlier versions that nothing uses any more.
 GONE = (
-    *("precision_estimates", "rigid_part", "scaling", "companion.tolerance", "companion.cycles"),
-    *(f"stability.{key}" for key in ("hard", "rivals", "stick", "chatter_steps")),
+    *(
+        "precision_estimates",
+        "rigid_part",
+        "scaling",
+        "companion.tolerance",
+        "companion.cycles",
+        "identification.bounds",
+    ),
+    *(f"stability.{key}" for key in ("hard", "rivals", "stick", "chatter_steps", "methods")),
 )
 # Settings with a new name.
 RENAMED = {
     "dimensions.NAME.begin": "solver.settling, in excitation cycles",
-    "identification.bounds": "identification.ranges, with damping for loss and stiffness for group",
 }
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
@@ -103,8 +122,8 @@ def format_key(path: Iterable[str | int]) -> str:
 
 def fault_of_removed(path: list[str | int]) -> str:
     """What to do about a setting of an earlier version; empty for keys that never were settings."""
-    # An entry has a name of the user's choice.
-    key = format_key([path[0], "NAME", *path[2:]] if path[0] in ENTRIES else path)
+    # Each entry and each figure has its own name.
+    key = format_key([path[0], "NAME", *path[2:]] if path[0] in (*ENTRIES, *FIGURES) else path)
     if key in GONE:
         return ", because what used it is gone; remove it"
     if key in RENAMED:
@@ -137,7 +156,7 @@ def explain(error: dict) -> str:
         return f"{key} is missing"
     if kind == "extra_forbidden" and (fault := fault_of_removed(path)):
         return f"{key} is no setting any more{fault}"
-    if kind == "extra_forbidden" and path[0] in ("figures", "figures_on_request") and path[2:] == ["title"]:
+    if kind == "extra_forbidden" and path[0] in FIGURES and path[2:] == ["title"]:
         return f"{key} is no setting any more; remove it (the title is in scripts/figures/plots/{path[1]}.rst)"
     if kind == "extra_forbidden":
         known = [name for option in options_of(schema_at(path[:-1])) for name in option.get("properties", {})]

@@ -7,6 +7,7 @@ settings only as long as it has its own records, which neither an archive nor a 
 
 import itertools
 
+from scripts.accuracy.scenes import SCENES
 from scripts.accuracy.settings import precision_settings
 
 from .entries import ENTRIES, TIGHTER, resolve
@@ -19,7 +20,7 @@ TABLES = declared("TABLE_SETTINGS")
 def references(config: dict) -> list[str]:
     """All tables of a config, as SECTION/NAME."""
     entries = [f"{section}/{name}" for section in ENTRIES for name in config[section]]
-    scenes = [f"{kind}/{scene}" for kind in ("precision", "precision_times") for scene in config["precision"]["scenes"]]
+    scenes = [f"{kind}/{scene}" for kind in ("precision", "precision_times") for scene in SCENES]
     return [*entries, *TABLES, *scenes]
 
 

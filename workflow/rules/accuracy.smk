@@ -1,5 +1,6 @@
 # How accurate, fast and robust the solver is, compared with other methods. Measured times are processor times, so that these jobs
 # can run beside others.
+from scripts.accuracy import scenes
 from workflow.config.tables import budgeted_entries, budgeted_tables
 
 
@@ -31,7 +32,7 @@ rule precision:
     benchmark:
         benchmark_file("precision/{name}")
     wildcard_constraints:
-        name=one_of(config["precision"]["scenes"]),
+        name=one_of(scenes.SCENES),
     priority: 2
     params:
         **stage("accuracy.precision", "precision/{name}"),

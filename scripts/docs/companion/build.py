@@ -16,6 +16,8 @@ HERE = Path(__file__).parent
 SCRIPTS = ("solver", "shared", "controls", "state_maps", "plots", "scene", "page")
 PARTS = ("page.css", *(f"{name}.js" for name in SCRIPTS))
 STATES = tuple(style.STATE_COLOURS)
+OPENING = "second"  # preset that the page shows first
+SEPARATION = 1e-6  # m, by which the second part starts higher
 LINE = 0.01  # width of a line in units of a plot's range
 LAST = 0.25  # share of the run over which the paper takes mean velocities (Sect. 3.1)
 
@@ -82,7 +84,9 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
         "ranges": RANGES,
         "tangential": TANGENTIAL,
         "solver": {name: settings["solver"][name] for name in ("duration", "step")},
-        **{name: own[name] for name in ("separation", "presets", "opening")},
+        "presets": own["presets"],
+        "opening": OPENING,
+        "separation": SEPARATION,
         "last": LAST,
         "line": LINE,
         "states": STATES,

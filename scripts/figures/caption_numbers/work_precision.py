@@ -16,17 +16,16 @@ def numbers(
     riding_times: pd.DataFrame,
     bouncing_times: pd.DataFrame,
     reference: pd.DataFrame,
-    paper_step: float,
-    equal_error: float,
 ) -> dict:
     works, times = (jumping, riding, bouncing), (jumping_times, riding_times, bouncing_times)
     comparisons = []
     for scene, work, seconds in zip(NAMES.values(), works, times, strict=True):
-        paper, *others = speed.factors(speed.successful_runs(work, seconds), paper_step, equal_error)
+        paper, *others = speed.factors(speed.successful_runs(work, seconds))
         rival = others[0] if others else None
         comparisons.append((scene, paper, rival, rival and method_name(rival.method)))
     return {
         "comparisons": comparisons,
+        "equal_error": speed.EQUAL_ERROR,
         "missing": (jumping.outcome == MISSING).any(),
         "difference": reference.difference.abs().max(),
         "digits": DIGITS,

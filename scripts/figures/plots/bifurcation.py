@@ -11,6 +11,7 @@ MARKERS = {"fold": ("s", "fold"), "period_doubling": ("o", "period doubling")}
 WHITE = {"markersize": 3.5, "markerfacecolor": "white", "markeredgecolor": "black", "markeredgewidth": 0.7}
 STABLE = {"color": "black", "linewidth": 0.7}
 UNSTABLE = {"color": "black", "linewidth": 0.5, "linestyle": (0, (3, 2))}
+LOWEST = -2.0  # per excitation cycle, end of the axis of the exponents
 
 
 def draw_attractors(axes: Axes, strobes: pd.DataFrame) -> None:
@@ -56,9 +57,8 @@ def plot(
     cascade: pd.DataFrame,
     spectrum: pd.DataFrame,
     longest_period: int,
-    lowest_exponent: float,
 ) -> Figure:
-    """Draw attractors, orbits of up to `longest_period` cycles, and exponents above `lowest_exponent` (1/s)."""
+    """Draw attractors, orbits of up to `longest_period` cycles, and the largest exponents."""
     figure = style.figure(style.PAGE, 130.0)
     diagram, exponents = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 1.4))
     draw_attractors(diagram, strobes)
@@ -70,7 +70,7 @@ def plot(
         for axes in (diagram, exponents):
             axes.axvline(place, color="0.5", linewidth=0.6, linestyle=":")
         style.note(exponents, "period doublings accumulate", (place, 0.05), (3, 0), xycoords=("data", "axes fraction"))
-    draw_exponents(exponents, spectrum, lowest_exponent)
+    draw_exponents(exponents, spectrum, LOWEST * spectrum.attrs["model"]["frequency"])
     for stable, label, look in ((True, "stable orbit", STABLE), (False, "unstable orbit", UNSTABLE)):
         if (branches.stable == stable).any():
             diagram.plot([], [], label=label, **look)

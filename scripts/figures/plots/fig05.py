@@ -6,14 +6,15 @@ from matplotlib.figure import Figure
 from figures import style
 
 FORCES = {"contact_force": "contact force $F_c$ in mN", "friction_force": "friction force $F_r$ in mN"}
+BEGIN = 0.96  # s, from which two excitation cycles remain
 
 
-def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, begin: float) -> Figure:
-    """Draw signals at two amplitudes from the time `begin` (s) on."""
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
+    """Draw the last two excitation cycles of signals at two amplitudes."""
     figure = style.figure(style.PAGE, 88.0)
     panels = figure.subplots(2, 2, sharex=True)
     for role, table in {"converged": converged, "euler": euler}.items():
-        for column, (acceleration, rows) in enumerate(table[table.time >= begin].groupby("acceleration")):
+        for column, (acceleration, rows) in enumerate(table[table.time >= BEGIN].groupby("acceleration")):
             panels[0, column].set_title(f"{('below', 'above')[column]}, $\\hat{{a}}$ = {acceleration:g} m/s²")
             for axes, force in zip(panels[:, column], FORCES, strict=True):
                 axes.plot(rows.time, 1e3 * rows[force], **style.CURVES[role])
@@ -21,7 +22,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, begin: float) -> Figur
         for axes in line:
             axes.set_ylabel(label)
     for axes in panels[1]:
-        axes.set_xlim(begin, converged.time.max())
+        axes.set_xlim(BEGIN, converged.time.max())
         axes.locator_params(axis="x", nbins=5)
         axes.set_xlabel("time in s")
     figure.align_ylabels()

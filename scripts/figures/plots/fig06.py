@@ -6,16 +6,17 @@ from matplotlib.figure import Figure
 from figures import style
 
 LOWEST = 1e-6  # m/s, end of the axis: below, lines of the riding part vanish in the noise of the samples
+HIGHEST = 1000.0  # Hz, end of the axis, as in the paper
 
 
-def plot_signal(converged: pd.DataFrame, euler: pd.DataFrame, signal: str, symbol: str, highest: float) -> Figure:
-    """Draw the spectra of one signal at two amplitudes up to the frequency `highest` (Hz)."""
+def plot_signal(converged: pd.DataFrame, euler: pd.DataFrame, signal: str, symbol: str) -> Figure:
+    """Draw the spectra of one signal at two amplitudes."""
     figure = style.figure(style.PAGE, 60.0)
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     markers = {"euler": {"marker": "o", "markerfacecolor": "none"}, "converged": {"marker": "."}}
     for role, table in {"euler": euler, "converged": converged}.items():
         look = style.LOOKS[role] | markers[role]
-        shown = table[(table.signal == signal) & (table.frequency <= highest)]
+        shown = table[(table.signal == signal) & (table.frequency <= HIGHEST)]
         for axes, place, (acceleration, rows) in zip(
             panels, ("below", "above"), shown.groupby("acceleration"), strict=True
         ):
@@ -31,6 +32,6 @@ def plot_signal(converged: pd.DataFrame, euler: pd.DataFrame, signal: str, symbo
     return figure
 
 
-def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, highest: float) -> Figure:
-    """Draw spectra at two amplitudes up to the frequency `highest` (Hz)."""
-    return plot_signal(converged, euler, "vz", "$\\dot{z}_p$", highest)
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
+    """Draw spectra at two amplitudes."""
+    return plot_signal(converged, euler, "vz", "$\\dot{z}_p$")

@@ -6,6 +6,6 @@ from matplotlib.figure import Figure
 from figures.plots.fig06 import plot_signal
 
 
-def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, highest: float) -> Figure:
-    """Draw spectra at two amplitudes up to the frequency `highest` (Hz)."""
-    return plot_signal(converged, euler, "vx", "$\\dot{x}_p$", highest)
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
+    """Draw spectra at two amplitudes."""
+    return plot_signal(converged, euler, "vx", "$\\dot{x}_p$")

@@ -7,12 +7,11 @@ from matplotlib.ticker import MaxNLocator
 from figures import style
 
 SMALL = 1e-4  # m, up to which heights are in µm, because ticks in mm would have too many digits
+TRANSIENT = 0.5  # share of a run that is grey; the rest is coloured
 
 
-def plot(
-    *, converged: pd.DataFrame, portraits: list[list[float]], transient: float, euler: pd.DataFrame | None = None
-) -> Figure:
-    """Draw three `portraits`, given by acceleration (m/s²) and z0 (m); grey until `transient` (s), then coloured."""
+def plot(*, converged: pd.DataFrame, portraits: list[list[float]], euler: pd.DataFrame | None = None) -> Figure:
+    """Draw three `portraits`, given by acceleration (m/s²) and z0 (m)."""
     signals = style.drop_missing(euler=euler, converged=converged)
     figure = style.figure(style.PAGE, 8.0 + 52.0 * len(signals))
     panels = figure.subplots(len(signals), 3, sharex="col", sharey="col", squeeze=False)
@@ -20,7 +19,7 @@ def plot(
         for axes, (acceleration, z0) in zip(line, portraits, strict=True):
             run = table[(table.acceleration == acceleration) & (table.z0 == z0)]
             (state,) = run.state.unique()
-            settled = run[run.time >= transient]
+            settled = run[run.time >= TRANSIENT * run.time.max()]
             highest = converged[(converged.acceleration == acceleration) & (converged.z0 == z0)].z.max()
             factor, unit = (1e3, "mm") if highest > SMALL else (1e6, "µm")
             axes.plot(factor * run.z, run.vz, color="0.75", linewidth=0.4)

@@ -8,6 +8,7 @@ from claims.about_proofs import lowest_fold
 from figures import style
 
 SHADE = "0.93"
+LOWEST = -30.0  # 1/s, end of the axis of the exponents
 
 
 def draw_attractors(axes: Axes, strobes: pd.DataFrame) -> None:
@@ -40,9 +41,8 @@ def plot(
     estimate: pd.DataFrame,
     map: pd.DataFrame,
     critical_acceleration: float,
-    lowest_exponent: float,
 ) -> Figure:
-    """Draw exponents above `lowest_exponent` (1/s); shade from `critical_acceleration` (m/s²) to the accumulation."""
+    """Draw attractors, exponents and states; shade from `critical_acceleration` (m/s²) to the accumulation."""
     figure = style.figure(style.PAGE, 96.0)
     grid = figure.add_gridspec(1, 2, width_ratios=(2.0, 1.0))
     left = grid[0].subgridspec(2, 1, height_ratios=(1.5, 1.0))
@@ -64,7 +64,7 @@ def plot(
     style.note(diagram, text, (accumulation, 0.97), (-2, 0), ha="right", **top)
     style.note(below, "chaos in\nthe paper", (middle, 0.97), ha="center", **top)
     diagram.tick_params(labelbottom=False)
-    below.set_ylim(lowest_exponent, 1.5 * spectrum.lambda_1.max())
+    below.set_ylim(LOWEST, 1.5 * spectrum.lambda_1.max())
     below.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
     below.set_xlabel(style.AMPLITUDE)
 

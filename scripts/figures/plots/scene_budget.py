@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter
 
+from accuracy.scene_budget import PIXELS
 from figures import style
 
 TOLERANCES = {1e-4: "#D55E00", 1e-6: "#E69F00", 1e-8: "#009E73", 1e-10: "#56B4E9", 1e-12: "#0072B2"}
@@ -38,7 +39,6 @@ def figure_label(figure: str) -> str:
 def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     """Draw costs and visible changes of each table's variants."""
     table = budget.merge(times, on=["table", "variant", "tolerance"], how="left")
-    table.attrs = budget.attrs
     drawn = table[table.table != "none"]
     names = list(dict.fromkeys(drawn.table))
     figures = drawn.groupby("table").figure.unique().map(lambda drawing: ", ".join(map(figure_label, drawing)))
@@ -58,7 +58,7 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     chosen = rows[rows.chosen]
     cost.plot(1e3 * chosen.seconds, chosen.place, markeredgewidth=0.8, **RING)
     seen.plot(chosen.seen, chosen.place, markeredgewidth=0.8, **RING)
-    seen.axvline(table.attrs["pixels"], color="black", linewidth=0.6, linestyle=":")
+    seen.axvline(PIXELS, color="black", linewidth=0.6, linestyle=":")
     cost.set_yticks(range(len(names)), [f"{figures[name]}\n{name}" for name in names])
     cost.set_ylim(len(names) - 0.5, -0.5)
     for axes in (cost, seen):

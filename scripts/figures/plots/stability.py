@@ -17,6 +17,7 @@ AXES = {
     "impact velocity": "impact velocity in m/s",
     "conveyor": "amplitude $\\hat{a}$ in m/s²",
 }
+PAPER_AMPLITUDE, PAPER_STEP = 40.0, 5e-7  # m/s², s (Sect. 3)
 PAPER = {"marker": "*", "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.6, "markersize": 9.0}
 THEORY = {"color": "black", "linewidth": 1.0, "linestyle": ":"}
 TITLES = {
@@ -39,7 +40,7 @@ def largest_right_step(rows: pd.DataFrame) -> pd.Series:
     return rows.groupby("y")[["x", "outcome"]].apply(limit)
 
 
-def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str], paper_step: float) -> None:
+def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str]) -> None:
     """Draw the outcomes of the paper's method over one quantity and the step, and the limits of all methods."""
     euler = rows[rows.method == "euler"]
     style.class_map(axes, euler.pivot(index="x", columns="y", values="outcome"), OUTCOMES)
@@ -54,7 +55,7 @@ def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str], p
     top = OWN_ROW * euler.x.max()
     right = own.y.where(own.outcome == "right")
     axes.plot(right, np.full(len(own), top), color=style.CONVERGED, linewidth=4.0, solid_capstyle="butt")
-    axes.axhline(paper_step, color="black", linewidth=0.8, linestyle=(0, (4, 2)))
+    axes.axhline(PAPER_STEP, color="black", linewidth=0.8, linestyle=(0, (4, 2)))
     axes.set_yscale("log")
     axes.set_xscale("linear" if panel == "conveyor" else "log")
     axes.set_xlim(euler.y.min(), euler.y.max())
@@ -78,14 +79,14 @@ def legend_handles(methods: list[str]) -> list[Patch | Line2D]:
     return [*areas, *lines, theory, own, step]
 
 
-def plot(*, stability: pd.DataFrame, acceleration: float) -> Figure:
-    """Draw a panel for each quantity, with a star at the paper's step and the paper's `acceleration` (m/s²)."""
+def plot(*, stability: pd.DataFrame) -> Figure:
+    """Draw a panel for each quantity, with a star at the paper's step and default amplitude."""
     figure = style.figure(style.PAGE, 130.0)
     panels = figure.subplots(2, 2, sharey=True)
-    methods, paper_step = stability.attrs["methods"], stability.attrs["paper_step"]
+    methods = [method for method in stability.method.unique() if method != "event"]
     for axes, panel in zip(panels.flat, AXES, strict=True):
-        draw_panel(axes, stability[stability.panel == panel], panel, methods, paper_step)
-    panels[1, 1].plot(acceleration, paper_step, **PAPER)
+        draw_panel(axes, stability[stability.panel == panel], panel, methods)
+    panels[1, 1].plot(PAPER_AMPLITUDE, PAPER_STEP, **PAPER)
     for axes in panels[:, 0]:
         axes.set_ylabel("time step in s")
     figure.legend(handles=legend_handles(methods), loc="outside upper center", ncols=3)

@@ -73,14 +73,14 @@ def draw_factor(axes: Axes, factor: speed.Factor, below: bool) -> None:
     style.note(axes, label, place, offset, ha="center", va=side, weight="bold")
 
 
-def draw_panel(axes: Axes, runs: pd.DataFrame, paper_step: float, equal_error: float) -> None:
+def draw_panel(axes: Axes, runs: pd.DataFrame) -> None:
     """Draw the error over the processor time of the successful runs of a scene."""
     for _, rows in runs.groupby(["method", "treatment"], sort=False):
         draw_curve(axes, rows)
-    paper = speed.paper_run(runs, paper_step)
+    paper = speed.paper_run(runs)
     place = paper.milliseconds, paper.trajectory_error
     axes.plot(*place, "o", markersize=7.0, markerfacecolor="none", color=style.EULER)
-    for factor in speed.factors(runs, paper_step, equal_error):
+    for factor in speed.factors(runs):
         draw_factor(axes, factor, factor.method == "euler")
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -165,12 +165,10 @@ def plot(
     jumping_times: pd.DataFrame,
     riding_times: pd.DataFrame,
     bouncing_times: pd.DataFrame,
-    paper_step: float,
-    equal_error: float,
 ) -> Figure:
     """Draw the errors over processor time in three scenes, and all failures.
 
-    A ring is around the run with `paper_step` (s). Speed ratios are at its error and at `equal_error`.
+    A ring is around the run with the paper's step. Speed ratios are at its error and at EQUAL_ERROR of `speed`.
     """
     figure = style.figure(style.PAGE, 155.0)
     upper, lower = figure.subfigures(2, 1, height_ratios=(1.3, 1.0))
@@ -178,7 +176,7 @@ def plot(
     panels = upper.subplots(1, len(scenes), sharex=True, sharey=True)
     times = (jumping_times, riding_times, bouncing_times)
     for axes, (name, work), seconds in zip(panels, scenes.items(), times, strict=True):
-        draw_panel(axes, speed.successful_runs(work, seconds), paper_step, equal_error)
+        draw_panel(axes, speed.successful_runs(work, seconds))
         axes.set_title(NAMES[name])
         axes.set_xlabel(f"processor time for {work.attrs['duration']:g} s in ms")
     panels[0].set_ylabel("error of the trajectory\nin units of the plate's motion")

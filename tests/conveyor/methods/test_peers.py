@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from project import read_config
 
+from accuracy.scenes import SCENES
 from conveyor import simulate
 from conveyor.methods import leg, modes, peers, rivals, scipy_peer
 from conveyor.methods.leg import Failed, Leg, Task
@@ -16,7 +17,7 @@ CONFIG = read_config()
 
 def scene(name):
     """The packed parameters of a scene of the config."""
-    return as_rows(grid.row_of(CONFIG["model"] | CONFIG["precision"]["scenes"][name]))
+    return as_rows(grid.row_of(CONFIG["model"] | SCENES[name]))
 
 
 def test_a_run_that_finds_the_same_event_for_ever_says_so(monkeypatch):
@@ -95,7 +96,7 @@ def test_a_rival_meets_the_reference(integrator):
     """At a loose tolerance: velocity, states in between and the times of impacts and separations."""
     if rivals.installed_version(integrator) is None:
         pytest.skip(f"{rivals.RIVALS[integrator].distribution} is not installed")
-    conveyor, start = grid.conveyor_and_start(CONFIG["model"] | CONFIG["precision"]["scenes"]["jumping"])
+    conveyor, start = grid.conveyor_and_start(CONFIG["model"] | SCENES["jumping"])
     truth = simulate(conveyor, start, duration=0.3, tolerance=1e-13)
     times = np.arange(1, 43) * 7e-3
     run = peers.run(scene("jumping"), 0.3, integrator, "modes", 1e-9, 200_000, times=times)

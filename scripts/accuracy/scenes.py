@@ -1,0 +1,9 @@
+"""The motions on which methods are compared, by what sets them apart from the model of the config."""
+
+SCENES = {
+    "jumping": {"acceleration": 40.0, "z0": 0.3e-3},
+    "riding": {"acceleration": 30.0, "z0": 0.0},
+    "bouncing": {"acceleration": 47.0, "z0": 0.0},
+}
+# A further scene for other solvers: chaos, with a duration (s) that is short enough for solvers to agree.
+CHAOTIC = {"scene": "chaotic", "model": {"acceleration": 80.0, "z0": 0.0}, "duration": 0.2}
