@@ -7,7 +7,8 @@ The damper takes about the share
     L = D K^(-1/(p+1)),   D = d_c/(m ω),
 
 of the speed in such an impact: to first order in the damping, and up to a factor of order one. Contacts with equal loss
-L have nearly the same coefficient of restitution. For a Hooke contact (p = 1), L is twice the damping ratio.
+L have nearly the same coefficient of restitution. For a Hooke contact (p = 1), L is twice the damping ratio. D and the
+power of K in L belong to the damper of the contact law.
 
 Searches over contacts go over K and L instead of k_c and d_c. The amplitudes at which states of motion change vary
 least along lines of equal loss, and a rectangle of K and L has no corner in which all parts jump, or none.
@@ -18,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from ..elementary import cos, power
 from ..packing import as_rows
-from ..solver import model
+from ..solver import contact_law, model
 
 
 def units(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -27,7 +28,8 @@ def units(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     mass, exponent = parameters[..., model.MASS], parameters[..., model.EXPONENT]
     omega = 2.0 * np.pi * parameters[..., model.FREQUENCY]
     gravity = parameters[..., model.GRAVITY] * cos(parameters[..., model.INCLINATION])
-    return mass * power(omega, 2.0 * exponent) / power(gravity, exponent - 1.0), mass * omega, exponent
+    unit_of_damping = contact_law.unit_of_damping(mass, omega, gravity)
+    return mass * power(omega, 2.0 * exponent) / power(gravity, exponent - 1.0), unit_of_damping, exponent
 
 
 def groups_of_contact(
@@ -49,7 +51,7 @@ def groups_of_contact(
     """
     unit, unit_of_damping, exponent = units(parameters)
     group = np.asarray(stiffness) / unit
-    return group, np.asarray(damping) / unit_of_damping * power(group, -1.0 / (exponent + 1.0))
+    return group, np.asarray(damping) / unit_of_damping * power(group, contact_law.loss_power(exponent))
 
 
 def contact_of_groups(group: ArrayLike, loss: ArrayLike, parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -63,4 +65,4 @@ def contact_of_groups(group: ArrayLike, loss: ArrayLike, parameters: np.ndarray)
     """
     unit, unit_of_damping, exponent = units(parameters)
     group = np.asarray(group)
-    return unit * group, unit_of_damping * np.asarray(loss) * power(group, 1.0 / (exponent + 1.0))
+    return unit * group, unit_of_damping * np.asarray(loss) * power(group, -contact_law.loss_power(exponent))

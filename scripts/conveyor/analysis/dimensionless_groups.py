@@ -6,9 +6,9 @@ With the length g/ω² and the time 1/ω, the penetration x = δ ω²/g and its 
 
     Γ = a_z/g,   D = d_c/(m ω),   K = (k_c/m) g^(p-1)/ω^(2p),
 
-and p and the treatment of tension, where g is the gravity normal to the track, g cos α. Nothing else matters: the angle
-of throw acts only through a_z = â sin φ, and friction and the motion along the track do not act on the vertical motion.
-An initial condition adds ψ0, z0 ω²/g and ż0 ω/g.
+and p and the treatment of tension, where g is the gravity normal to the track, g cos α; D belongs to the damper of the
+contact law. Nothing else matters: the angle of throw acts only through a_z = â sin φ, and friction and the motion along
+the track do not act on the vertical motion. An initial condition adds ψ0, z0 ω²/g and ż0 ω/g.
 """
 
 import math
@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..packing import as_rows, refuse_harmonics
-from ..solver import model
+from ..solver import contact_law, model
 from ..solver.model import PARAMETERS, normal_gravity
 
 # The groups in the order of their derivatives. The last three, z0 ω²/g, ż0 ω/g and ψ0, are the initial condition.
@@ -65,7 +65,7 @@ def groups_of(parameters: np.ndarray) -> Groups:
     mass, exponent = parameters[model.MASS], parameters[model.EXPONENT]
     return Groups(
         float(parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]) / gravity),
-        float(parameters[model.DAMPING] / (mass * omega)),
+        float(parameters[model.DAMPING] / contact_law.unit_of_damping(mass, omega, gravity)),
         float(parameters[model.STIFFNESS] / mass * gravity ** (exponent - 1.0) / omega ** (2.0 * exponent)),
         float(exponent),
         int(parameters[model.TENSION]),
@@ -134,8 +134,10 @@ def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
     ratio, damping, stiffness, p, _ = groups
     sine, cosine = math.sin(value["angle"]), math.cos(value["angle"])
     frequency, gravity, mass = value["frequency"], normal_gravity(parameters), value["mass"]
-    by_gravity = {
+    by_mass, by_omega, by_gravity = contact_law.POWERS_IN_DAMPING
+    of_gravity = {
         AMPLITUDE: -ratio / gravity,
+        DAMPING: -by_gravity * damping / gravity,
         STIFFNESS: (p - 1.0) * stiffness / gravity,
         HEIGHT: -height / gravity,
         VELOCITY: -velocity_ratio / gravity,
@@ -145,19 +147,19 @@ def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
         "acceleration": {AMPLITUDE: sine / gravity},
         "angle": {AMPLITUDE: value["acceleration"] * cosine / gravity},
         "frequency": {
-            DAMPING: -damping / frequency,
+            DAMPING: -by_omega * damping / frequency,
             STIFFNESS: -2.0 * p * stiffness / frequency,
             HEIGHT: 2.0 * height / frequency,
             VELOCITY: velocity_ratio / frequency,
         },
         "psi0": {PHASE: 1.0},
         "stiffness": {STIFFNESS: stiffness / value["stiffness"]},
-        "damping": {DAMPING: 1.0 / (2.0 * math.pi * frequency * mass)},
+        "damping": {DAMPING: 1.0 / contact_law.unit_of_damping(mass, 2.0 * math.pi * frequency, gravity)},
         "friction": {},
-        "mass": {DAMPING: -damping / mass, STIFFNESS: -stiffness / mass},
+        "mass": {DAMPING: -by_mass * damping / mass, STIFFNESS: -stiffness / mass},
         "exponent": {STIFFNESS: stiffness * math.log(length), EXPONENT: 1.0},
-        "gravity": {group: slope * rise for group, slope in by_gravity.items()},
-        "inclination": {group: slope * fall for group, slope in by_gravity.items()},
+        "gravity": {group: slope * rise for group, slope in of_gravity.items()},
+        "inclination": {group: slope * fall for group, slope in of_gravity.items()},
         "phase_shift": {},
         "static_friction": {},
         "z0": {HEIGHT: 1.0 / length},

@@ -9,7 +9,8 @@ Perturbations belong to (δ, Y) with Y = v + (d_c/m) max(δ, 0), for which the e
 
 are continuous across impact and separation, so that the linearised flow needs no jump there. Its determinant over a
 cycle is exp(-(d_c/m) T_contact), where T_contact is the time with a contact force. While the force would pull, `clip`
-switches the damping off; the force is continuous there, and v takes the place of Y.
+switches the damping off; the force is continuous there, and v takes the place of Y. Both Y and the determinant are
+those of the contact law.
 """
 
 import math
@@ -29,8 +30,8 @@ from ..solver.workspace import FIRST
 MAX_PERIOD = 64
 HIDDEN = 1e-6  # a determinant that is a smaller share of its two products is lost in rounding
 # Features of a cycle.
-IMPACTS, CONTACT_TIME, LONGEST_FLIGHT, AIRBORNE = range(4)
-FEATURES = 4
+IMPACTS, CONTACT_TIME, DAMPER_TIME, LONGEST_FLIGHT, AIRBORNE = range(5)
+FEATURES = 5
 
 
 @compiled
@@ -85,17 +86,17 @@ def advance_tangent(c, series, tangent, expansions, motion, piece):
         tangent[i, 0] = polynomial.value(expansions[i, ETA], 0, piece.length)
         tangent[i, 1] = polynomial.value(expansions[i, ZETA], 0, piece.length)
     if piece.end == contact.FORCE_SIGN:
-        switch_damping(c, tangent, not motion.pulled)
+        switch_damping(c, tangent, piece.w, not motion.pulled)
     return piece
 
 
 @compiled_inline
-def switch_damping(c, tangent, pulled):
-    """Change perturbations from Y to v where `clip` switches the damping off (`pulled`), and back."""
+def switch_damping(c, tangent, w, pulled):
+    """Change perturbations from Y to v where `clip` switches the damping off (`pulled`) at w = √δ, and back."""
     if c.tension == TENSION_CLIP:
         sign = -1.0 if pulled else 1.0
         for i in range(tangent.shape[0]):
-            tangent[i, 1] += sign * contact_law.smooth_slope(c) * tangent[i, 0]
+            tangent[i, 1] += sign * contact_law.smooth_slope(c, w * w) * tangent[i, 0]
 
 
 @compiled_inline
@@ -108,7 +109,7 @@ def delta_and_v(motion):
 
 
 @compiled_inline
-def count_piece(c, motion, piece, features):
+def count_piece(c, series, motion, piece, features):
     """Count a Piece that begins with a Motion among the features of its cycle."""
     if piece.kind == FLIGHT:
         features[AIRBORNE] += piece.duration
@@ -118,6 +119,7 @@ def count_piece(c, motion, piece, features):
             features[AIRBORNE] = 0.0
     elif piece.kind == CONTACT and not (motion.pulled and c.tension == TENSION_CLIP):
         features[CONTACT_TIME] += piece.duration
+        features[DAMPER_TIME] += contact_law.damper_time(c, series, FIRST, piece.length, piece.duration)
 
 
 @compiled
@@ -130,16 +132,17 @@ def advance(c, series, state, phase, duration, tangent, features):
     state : float64, shape (2,), δ (m) and v (m/s) at `phase` (rad); replaced
     duration : s
     tangent : float64, shape (2, 2), two perturbations of (δ, Y), replaced; shape (0, 2) for none
-    features : float64, shape (4,), replaced: number of impacts, time with contact force (s), longest flight that ended
-        (s); AIRBORNE, the time (s) since the last separation, goes on from its last value
+    features : float64, shape (5,), replaced: number of impacts, time with contact force (s), its
+        `contact_law.damper_time` (s), longest flight that ended (s); AIRBORNE, the time (s) since the last separation,
+        goes on from its last value
     """
     # Numbers of both perturbations lie side by side, so that one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
-    features[IMPACTS] = features[CONTACT_TIME] = features[LONGEST_FLIGHT] = 0.0
+    features[:AIRBORNE] = 0.0
     clock = pieces.clock_of(phase, 0)
     motion = vertical.motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:
-        switch_damping(c, tangent, True)
+        switch_damping(c, tangent, motion.w, True)
     while True:
         piece, after, next_clock, status = pieces.advance(c, series, clock, motion, duration - motion.t, False)
         if tangent.shape[0] > 0:
@@ -149,11 +152,11 @@ def advance(c, series, state, phase, duration, tangent, features):
                 after, next_clock, status = pieces.end_piece(c, series, clock, motion, piece)
         if status != OK:
             return status
-        count_piece(c, motion, piece, features)
+        count_piece(c, series, motion, piece, features)
         motion, clock = after, next_clock
         if piece.end == TIME_LIMIT:
             if motion.pulled:
-                switch_damping(c, tangent, False)
+                switch_damping(c, tangent, motion.w, False)
             state[0], state[1] = delta_and_v(motion)
             return OK
 
@@ -175,7 +178,7 @@ def follow_map(parameters, tolerance, state, cycles):
     -------
     status : code of status.STATUS
     strobes : float64, shape (cycles, 2), δ and v after each cycle; NaN from a failure on
-    features : float64, shape (cycles, 4), see `advance`; NaN from a failure on
+    features : float64, shape (cycles, 5), see `advance`; NaN from a failure on
     """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
@@ -225,7 +228,7 @@ def monodromy(parameters, tolerance, state, cycles, airborne):
     -------
     status : code of status.STATUS
     matrices : float64, shape (cycles, 2, 2), ∂(δ, Y)_end/∂(δ, Y)_start of each cycle; 0 behind a failure
-    features : float64, shape (cycles, 4), see `advance`; 0 behind a failure
+    features : float64, shape (cycles, 5), see `advance`; 0 behind a failure
     """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()

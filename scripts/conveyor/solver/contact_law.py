@@ -2,7 +2,7 @@
 
 A change of the law begins here: `spring_and_damper` is the law itself, which fixed-step methods and peers call, too.
 `next_speed` is its part in the Taylor recurrences of the motion in the plate. The other functions are its series along
-a contact step, its rate, its energy and a bound on its tension.
+a contact step, its rate, its energy and a bound on its tension, its linearisation, and its dimensionless groups.
 
 With the penetration δ = -q = w² and the time dt = w ds (a Sundman transformation) the equations of motion of a Hertz
 contact become polynomial,
@@ -28,6 +28,8 @@ from .workspace import COSINE, LIFT_W, SINE, SPARE, SPRING, SQUARE, T, V, W
 LETTERS = {W: "w", T: "t", V: "v", SINE: "s", COSINE: "c", SQUARE: "q", SPRING: "p", LIFT_W: "x"}
 # Rows of a perturbation's expansion.
 ETA, ZETA, RATE = range(3)
+# The unit of the damping d_c, made of the mass, ω and the gravity normal to the track, has these powers of the three.
+POWERS_IN_DAMPING = (1, 1, 0)
 
 
 @compiled_inline
@@ -78,15 +80,21 @@ def speed_of_approach(c, delta, smooth):
 
 
 @compiled_inline
-def smooth_slope(c):
-    """∂Y/∂δ (1/s) at constant v in contact."""
+def smooth_slope(c, delta):
+    """∂Y/∂δ (1/s) at constant v at a penetration δ > 0, h d_c/m for a damper with the force d_c h(δ) δ̇; here h = 1."""
     return c.damping
 
 
 @compiled_inline
-def log_contraction(c, contact_time):
-    """Logarithm of the factor by which areas of states (δ, v) change during a time (s) with contact force."""
-    return -c.damping * contact_time
+def damper_time(c, series, at, length, duration):
+    """∫ h dt (s) of the damper, see `smooth_slope`, over a contact step of a length in s and a duration (s)."""
+    return duration
+
+
+@compiled_inline
+def log_contraction(c, damper_time):
+    """Logarithm of the factor by which areas of states (δ, v) change, from the sum of `damper_time`."""
+    return -c.damping * damper_time
 
 
 @compiled_into_callers
@@ -305,7 +313,7 @@ def expand_tangents(c, series, at, expansions, free):
     """
     w = row_of(series, at + W)
     stiffness, stiff = expand_stiffness(c, series, at, SPARE)
-    slope = smooth_slope(c)
+    slope = c.damping
     if free:
         stiffness = slope = 0.0
     w_0, stiff_0 = w[0], stiff[0]
@@ -336,3 +344,14 @@ def expand_force(c, series, at, row, scale):
         force = c.stiffness * series[place(at + SPRING, n)] + damper
         series[place(row, n)] = scale * force
     series[row + ORDER] = 0.0
+
+
+def unit_of_damping(mass, omega, gravity):
+    """The damping d_c with which the group D is 1 (see analysis.dimensionless_groups), from numbers or arrays."""
+    by_mass, by_omega, by_gravity = POWERS_IN_DAMPING
+    return mass**by_mass * omega**by_omega * gravity**by_gravity
+
+
+def loss_power(exponent):
+    """The power n with which a contact takes about the share D K^n of the speed in an impact at the speed g/ω."""
+    return -1.0 / (exponent + 1.0)

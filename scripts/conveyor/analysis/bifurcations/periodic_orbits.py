@@ -135,10 +135,9 @@ class ReturnMap:
         # The period may begin in the flight in which it ends.
         _, matrices, features = self.linearised(unknown, features[-1, stroboscopic_map.AIRBORNE])
         matrix = reduce(lambda whole, following: linear_algebra.product(following, whole), matrices)
-        contact_times = features[:, stroboscopic_map.CONTACT_TIME]
         # The trace formula of the flow gives determinants that are lost in rounding.
         hidden = [stroboscopic_map.hides_determinant(one) for one in matrices]
-        contractions = np.exp(contact_law.log_contraction(self.constants, contact_times))
+        contractions = np.exp(contact_law.log_contraction(self.constants, features[:, stroboscopic_map.DAMPER_TIME]))
         determinants = np.where(hidden, contractions, linear_algebra.determinant(matrices))
         trace, determinant = float(np.trace(matrix)), float(np.prod(determinants))
         root = cmath.sqrt(0.25 * trace * trace - determinant)
@@ -152,7 +151,7 @@ class ReturnMap:
             multipliers=(first, second),
             determinant=determinant,
             impacts=int(features[:, stroboscopic_map.IMPACTS].sum()),
-            contact_time=float(contact_times.sum()),
+            contact_time=float(features[:, stroboscopic_map.CONTACT_TIME].sum()),
             longest_flight=float(flights.max() / (1.0 / self.parameters[FREQUENCY])),
         )
 

@@ -72,7 +72,7 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
         logs = stretches[n] if n >= 0 else discarded
         stretching.orthonormalise(tangent, logs)
         if logs[1] < logs[0] + LOST:
-            logs[1] = contact_law.log_contraction(c, features[stroboscopic_map.CONTACT_TIME]) - logs[0]
+            logs[1] = contact_law.log_contraction(c, features[stroboscopic_map.DAMPER_TIME]) - logs[0]
             tangent[1, 0], tangent[1, 1] = -tangent[0, 1], tangent[0, 0]
         if n >= 0:
             contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
@@ -226,7 +226,7 @@ def repeating_motion(
         return nothing
     status, matrices, features = stroboscopic_map.monodromy(parameters, tolerance, state, period, 0.0)
     constants = contact.constants(parameters, tolerance)
-    contractions = contact_law.log_contraction(constants, features[:, stroboscopic_map.CONTACT_TIME])
+    contractions = contact_law.log_contraction(constants, features[:, stroboscopic_map.DAMPER_TIME])
     logarithms = stretching.log_multipliers(matrices, contractions)
     if status != OK or not math.isfinite(logarithms[0]):
         return nothing
