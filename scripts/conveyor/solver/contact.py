@@ -12,7 +12,7 @@ import numpy as np
 
 from ..parameters import PARAMETERS
 from . import contact_law, model, plate, polynomial
-from .contact_law import expand, expand_force, twice_elastic_energy
+from .contact_law import expand, expand_sign, twice_elastic_energy
 from .jit import compiled, compiled_inline, compiled_into_callers
 from .polynomial import ORDER, SIZE
 from .workspace import COSINE, FIRST, SINE, SPARE, SPRING, STEP, T, V, W
@@ -151,9 +151,8 @@ def end_step(c, series, at, w0, v0, pulled, length):
             length = root
             event = SEPARATION
             shortened = True
-    if c.tension != model.TENSION_ALLOW and contact_law.can_pull(c):
-        expand_force(c, series, at, SPARE, -1.0 if pulled else 1.0)
-        # The series has the factor w, and so a root of its own at a separation.
+    if c.tension != model.TENSION_ALLOW and expand_sign(c, series, at, SPARE, -1.0 if pulled else 1.0):
+        # The series may have a root of its own at a separation.
         end = length * (1.0 - LEAVE_IMPACT) if event == SEPARATION else length
         root = polynomial.first_root(series, SPARE, 0.0, end, polynomial.LEAVE)
         if root < end:

@@ -107,12 +107,6 @@ def impulse_of_tension(c, fastest, lapse):
 
 
 @compiled_inline
-def can_pull(c):
-    """Whether the force of a closed contact can be negative."""
-    return c.damping > 0.0
-
-
-@compiled_inline
 def static_penetration(stiffness, exponent, press):
     """The penetration δ (m) at which the spring carries a force per mass (m/s²); stiffness per mass."""
     return (press / stiffness) ** (1.0 / exponent)
@@ -338,12 +332,24 @@ def expand_tangents(c, series, at, expansions, free):
 
 @compiled_inline
 def expand_force(c, series, at, row, scale):
-    """Fill a row with the series of w scale F_c/m along a step, which has the sign of the force."""
+    """Fill a row with the series of w scale F_c/m along a step."""
     for n in range(ORDER):
         damper = c.damping * (n + 1) * series[place(at + SQUARE, n + 1)]
         force = c.stiffness * series[place(at + SPRING, n)] + damper
         series[place(row, n)] = scale * force
     series[row + ORDER] = 0.0
+
+
+@compiled_inline
+def expand_sign(c, series, at, row, sign):
+    """Fill a row with a series that has the sign of the contact force along a step, times `sign`.
+
+    Returns whether the force can change its sign. The series may have a simple zero at w = 0, as that of w F_c/m has.
+    Next to a multiple zero, its sign would depend on rounding errors.
+    """
+    if c.damping > 0.0:
+        expand_force(c, series, at, row, sign)
+    return c.damping > 0.0
 
 
 def unit_of_damping(mass, omega, gravity):
