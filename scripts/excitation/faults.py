@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .harmonics import Fit, duration_of, fit, orders_of, sampling_rate, spectrum, strongest
+from .harmonics import Fit, duration_of, fit, gaps_of, orders_of, sampling_rate, spectrum, steadiness, strongest
 from .reading import STANDARD_GRAVITY, UNITS, Recording, RecordingError, line_of_sample, parse, read_text
 
 __all__ = ["RecordingError", "checked", "first_fit", "read_text"]
@@ -21,6 +21,13 @@ CHECKED_ORDERS = 8
 # Amplitudes (m/s²) of which one unit or the other is wrong: no plate has less to convey with, or survives more.
 LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
 MOST_DISPLACEMENT = 0.1  # m
+MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
+GRAVITY = 0.03  # relative deviation within which an offset counts as gravity
+MOST_TILT = 0.2  # share of gravity normal to the track, below which the sensor cannot stand as stated
+MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
+MOST_GAPS = 0.75  # share of the recording without samples, beyond which cycles cannot be counted across gaps
+OUTLIER = 20.0  # times the 95 % quantile of a column, from which a sample is no vibration
+UNSTEADY = 0.15  # relative standard deviation of the amplitude, above which its mean is no parameter of the drive
 # A further line counts from this share of the fundamental of its axis, if its power is this multiple of the noise's
 # median power, and if it is this far from all multiples of the fundamental, in units of 1/T.
 SHARE, OUT_OF_NOISE, FOOT = 0.05, 40.0, 2.0
@@ -86,6 +93,8 @@ def unit_faults(acceleration: float, frequency: float, offsets: np.ndarray, unit
     """Amplitude (m/s²), frequency (Hz) and offsets (m/s²) that no plate has."""
     given = acceleration / UNITS[unit]
     shown = f"vibrates with {given:.4g} {unit}" + (f", which is {acceleration:.4g} m/s²" if unit == "g" else "")
+    other = next(name for name in UNITS if name != unit)
+    gravity = math.hypot(*offsets)
     if acceleration > MOST_ACCELERATION:
         if unit == "g" and given < MOST_ACCELERATION:
             yield f"{shown}; no conveyor does: leave excitation.unit out if the file is in m/s²"
@@ -97,18 +106,40 @@ def unit_faults(acceleration: float, frequency: float, offsets: np.ndarray, unit
     elif (displacement := acceleration / (2.0 * math.pi * frequency) ** 2) > MOST_DISPLACEMENT:
         yield (
             f"{shown}, at {frequency:.3g} Hz; the plate would move by {displacement:.3g} m: write the time in s "
-            "(divide milliseconds by 1000)"
+            "(divide milliseconds by 1000), or sample faster if the drive is faster (aliasing)"
         )
-    elif unit == "g" and abs(math.hypot(*offsets) / STANDARD_GRAVITY**2 - 1.0) < 0.03:
-        yield "shows gravity as 9.81, so its values are in m/s²; leave excitation.unit out"
+    elif frequency > MOST_FREQUENCY:
+        yield f"{shown}, at {frequency:.5g} Hz; no conveyor does: write the time in s (multiply minutes by 60)"
+    elif abs(gravity / UNITS[unit] * UNITS[other] / STANDARD_GRAVITY - 1.0) < GRAVITY:
+        remedy = "set excitation.unit: g" if other == "g" else "leave excitation.unit out"
+        yield f"shows gravity as {gravity / UNITS[unit]:.3g}, so its values are in {other}; {remedy}"
+    elif abs(gravity / STANDARD_GRAVITY - 1.0) < GRAVITY and abs(offsets[1]) < MOST_TILT * gravity:
+        yield (f"shows gravity, {gravity:.3g} m/s², along the track; check which column is which, and excitation.mount")
 
 
 def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iterator[tuple[int | None, str]]:
     """Sample (None for the whole file) and description of each fault; `stated` is the frequency of the config (Hz)."""
     time, signals = recording.time[:CHECKED], recording.acceleration[:, :CHECKED]
+    intervals, is_gap = gaps_of(recording.time)
+    if (missing := intervals[is_gap].sum()) > MOST_GAPS * intervals.sum():
+        yield (
+            int(np.argmax(is_gap)) + 1,
+            f"follows a gap, and gaps are {100.0 * missing / intervals.sum():.2g} % of the recording; keep a piece "
+            "between gaps",
+        )
+        return
     for name, readings in zip(recording.columns, recording.readings, strict=True):
         if np.ptp(readings) == 0.0:
             yield None, f"has the same value in every line of the column {name}; check the sensor and its channel"
+            return
+        sizes = np.abs(readings - np.median(readings))
+        if sizes.max() > OUTLIER * np.quantile(sizes, 0.95) > 0.0:
+            sample = int(np.argmax(sizes))
+            yield (
+                sample,
+                f"{name} = {readings[sample] / UNITS[unit]:.4g} stands out of all other values; delete the line, and "
+                "check the cable",
+            )
             return
         if (sample := clipped(readings, recording.quanta.max())) is not None:
             yield (
@@ -136,6 +167,14 @@ def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iter
             f"{frequency:.3g} Hz (aliasing); sample at {LEAST_PER_CYCLE * stated:g} Hz or more",
         )
         return
+    steady = steadiness(time, fitted)
+    if (deviation := steady["deviation"]) > max(UNSTEADY, 3.0 * steady["deviation_of_noise"]):
+        yield (
+            None,
+            f"is not steady: its amplitude at {frequency:.4g} Hz varies by {100.0 * deviation:.2g} % (standard "
+            "deviation); keep a piece in which the drive runs steadily, and record one drive alone",
+        )
+        return
     if other:
         yield (
             None,
@@ -155,6 +194,17 @@ def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iter
                 f"shows no vibration {direction} at {frequency:.4g} Hz ({sizes[axis]:.2g} m/s²), to which shares of "
                 "harmonics and phases refer; check the columns, and excitation.mount",
             )
+            return
+    shares = np.abs(fitted.amplitudes) / sizes[:, None]
+    if shares.max() > MOST_SHARE:
+        axis, place = np.unravel_index(np.argmax(shares), shares.shape)
+        direction = ("along", "normal to")[axis]
+        yield (
+            None,
+            f"vibrates {direction} the track {shares[axis, place]:.3g} times as much at {(place + 1) * frequency:.4g} "
+            f"Hz as at {frequency:.4g} Hz, to which shares of harmonics refer; model.harmonics take shares up to "
+            f"{MOST_SHARE:g}: check the columns and excitation.mount, and record one drive alone",
+        )
 
 
 def checked(text: str, path: str | Path, settings: dict, stated: float | None = None) -> Recording:

@@ -17,8 +17,10 @@ MOST_ORDER = 20  # harmonics of higher orders move the plate by less than 1/400 
 HIGHEST = 0.45  # frequency up to which harmonics are fitted, in units of the sampling rate: below 1/2
 PADDING = 4  # the first estimate of the frequency is on a grid of 1/4 of the resolution 1/T
 BLOCK = 2**16  # samples whose design matrix is in memory at a time
-GAP = 6.0  # mean intervals between two samples from which values between them are not interpolated
+GAP = 6.0  # mean intervals between two samples from which on they have a gap between them
 LEAST_CYCLES = 1.5  # of the lowest frequency that is a vibration and no drift
+PIECE = 4  # cycles, at least, of a piece of the recording whose amplitude is measured
+MOST_PIECES = 50
 SEARCHED = 0.6  # half width of the searched frequencies around it, in units of 1/T: less than to the next minimum
 
 
@@ -36,14 +38,21 @@ class Fit(NamedTuple):
         return self.amplitudes.shape[1]
 
 
+def gaps_of(time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The intervals between samples (s), and which of them are gaps."""
+    intervals = np.diff(time)
+    return intervals, intervals > GAP * intervals.mean()
+
+
 def sampling_rate(time: np.ndarray) -> float:
-    """Mean number of samples per second."""
-    return (len(time) - 1) / (time[-1] - time[0])
+    """Mean number of samples per second, outside gaps."""
+    intervals, is_gap = gaps_of(time)
+    return 1.0 / float(intervals[~is_gap].mean())
 
 
 def duration_of(time: np.ndarray) -> float:
-    """Duration of a recording (s), with the interval that its last sample stands for."""
-    return len(time) / sampling_rate(time)
+    """Duration of a recording (s), with its gaps and the interval that its last sample stands for."""
+    return time[-1] - time[0] + 1.0 / sampling_rate(time)
 
 
 def orders_of(rate: float, frequency: float) -> int:
@@ -94,13 +103,12 @@ def spectrum(time: np.ndarray, signals: np.ndarray) -> tuple[np.ndarray, np.ndar
 
     Uneven samples are interpolated, and gaps are left out, which only spectra for the eye and first estimates may do.
     """
-    count = len(time)
-    even = np.linspace(time[0], time[-1], count)
-    interval = np.diff(time)[np.clip(np.searchsorted(time, even) - 1, 0, count - 2)]
-    window = np.hanning(count) * (interval < GAP / sampling_rate(time))
+    count, is_gap = round((time[-1] - time[0]) * sampling_rate(time)) + 1, gaps_of(time)[1]
+    even, spacing = np.linspace(time[0], time[-1], count, retstep=True)
+    window = np.hanning(count) * ~is_gap[np.clip(np.searchsorted(time, even) - 1, 0, len(is_gap) - 1)]
     length = PADDING * 2 ** math.ceil(math.log2(count))
     values = np.array([np.interp(even, time, one - one.mean()) for one in signals])
-    frequencies = np.fft.rfftfreq(length, 1.0 / sampling_rate(time))
+    frequencies = np.fft.rfftfreq(length, spacing)
     return frequencies, 2.0 / window.sum() * np.abs(np.fft.rfft(window * values, length))
 
 
@@ -135,3 +143,24 @@ def fit(time: np.ndarray, signals: np.ndarray, guess: float, orders: int) -> Fit
     values, rest = project(centred, signals, frequency, orders)
     amplitudes = (values[2 : 2 + orders] - 1j * values[2 + orders :]).T
     return Fit(frequency, middle, amplitudes, values[0], rest)
+
+
+def steadiness(time: np.ndarray, fitted: Fit) -> dict[str, float]:
+    """How the amplitude of the fundamental changes from piece to piece of the recording."""
+    cycles = fitted.frequency * duration_of(time)
+    pieces = max(2, min(MOST_PIECES, math.floor(cycles / PIECE)))
+    centred = time - fitted.middle
+    begins = np.linspace(0, len(time), pieces, endpoint=False).astype(np.int64)  # a gap leaves no piece empty
+    sizes = np.diff([*begins, len(time)])
+    waves = np.exp(-2j * math.pi * fitted.frequency * centred)
+    weights = np.abs(fitted.amplitudes[:, 0]) ** 2
+    errors = 2.0 * np.add.reduceat(fitted.residual * waves, begins, axis=1) / sizes / fitted.amplitudes[:, :1]
+    amplitude = weights @ errors.real / weights.sum()
+    noise = (fitted.residual**2).mean(axis=1) * 2.0 / sizes.mean()
+    middles = np.add.reduceat(centred, begins) / sizes
+    return {
+        "pieces": pieces,
+        "deviation": float(amplitude.std(ddof=1)),
+        "deviation_of_noise": math.sqrt(float(weights @ noise)) / float(weights.sum()),
+        "drift": float(np.polyfit(middles, amplitude, 1)[0] * (centred[-1] - centred[0])),
+    }

@@ -7,15 +7,13 @@ from scipy.ndimage import median_filter
 
 from excitation.estimates import PARAMETERS, harmonics, noise_of, parameters
 from excitation.faults import first_fit
-from excitation.harmonics import Fit, duration_of, fit, orders_of, sampling_rate, spectrum
+from excitation.harmonics import Fit, duration_of, fit, orders_of, sampling_rate, spectrum, steadiness
 from excitation.reading import Recording, parse
 from pipeline import fields
 
 AXES = ("along", "normal")
 DIGITS = 10  # of all numbers; further digits depend on the processor, and no sensor has them
 SAMPLES, POINTS, BINS = 2000, 257, 2000  # of the figure
-PIECE = 4  # cycles, at least, of a piece of the recording whose amplitude is measured
-MOST_PIECES = 50
 
 
 def by_axis(name: str, unit: str, description: str) -> tuple:
@@ -53,7 +51,7 @@ TABLES = {
     ),
     "quality": (
         fields.count("samples", "samples of the recording"),
-        fields.number("sampling_rate", "Hz", "mean number of samples per second"),
+        fields.number("sampling_rate", "Hz", "mean number of samples per second, outside gaps"),
         fields.number("cycles", "1", "excitation cycles of the recording"),
         *by_axis("_offset", "m/s²", "gravity and offset of the sensor"),
         *by_axis("_noise", "m/s²", "root mean square of what no harmonic explains,"),
@@ -102,27 +100,6 @@ def cycles_of(recording: Recording, fitted: Fit) -> np.ndarray:
     """Phase of every sample in cycles; the fundamental normal to the track has its maximum at whole numbers."""
     zero = np.angle(fitted.amplitudes[1, 0]) / (2.0 * math.pi)
     return (recording.time - fitted.middle) * fitted.frequency + zero
-
-
-def steadiness(recording: Recording, fitted: Fit) -> dict[str, float]:
-    """How the amplitude of the fundamental changes from piece to piece of the recording."""
-    cycles = fitted.frequency * duration_of(recording.time)
-    pieces = max(2, min(MOST_PIECES, math.floor(cycles / PIECE)))
-    time = recording.time - fitted.middle
-    begins = np.searchsorted(time, np.linspace(time[0], time[-1], pieces, endpoint=False))
-    sizes = np.diff([*begins, len(time)])
-    waves = np.exp(-2j * math.pi * fitted.frequency * time)
-    weights = np.abs(fitted.amplitudes[:, 0]) ** 2
-    errors = 2.0 * np.add.reduceat(fitted.residual * waves, begins, axis=1) / sizes / fitted.amplitudes[:, :1]
-    amplitude = weights @ errors.real / weights.sum()
-    noise = (fitted.residual**2).mean(axis=1) * 2.0 / sizes.mean()
-    middles = np.add.reduceat(time, begins) / sizes
-    return {
-        "pieces": pieces,
-        "deviation": float(amplitude.std(ddof=1)),
-        "deviation_of_noise": math.sqrt(float(weights @ noise)) / float(weights.sum()),
-        "drift": float(np.polyfit(middles, amplitude, 1)[0] * (time[-1] - time[0])),
-    }
 
 
 def waveform(fitted: Fit, above: np.ndarray) -> dict[str, np.ndarray]:
@@ -176,7 +153,7 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
         "cycles": fitted.frequency * duration_of(recording.time),
         "other_frequency": other[0] if other else math.nan,
         "other_amplitude": other[1] if other else math.nan,
-        **steadiness(recording, fitted),
+        **steadiness(recording.time, fitted),
     }
     for axis, name in enumerate(AXES):
         quality[f"{name}_offset"] = fitted.offsets[axis]

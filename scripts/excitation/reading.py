@@ -153,7 +153,8 @@ def read_slowly(
                 break
     if not faults and len(equal) > MOST_EQUAL * len(rows):
         count = f"and {len(equal) - 1:,} further lines repeat" if len(equal) > 1 else "repeats"
-        faults = [f"{path}:{equal[0]}: {count} the time of the line before; export the time with more digits"]
+        remedy = "export the time with more digits, or each line once"
+        faults = [f"{path}:{equal[0]}: {count} the time of the line before; {remedy}"]
     if faults:
         raise RecordingError(faults)
     return np.array(rows, dtype=np.float64).reshape(-1, len(used)).T

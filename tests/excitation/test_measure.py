@@ -80,6 +80,14 @@ def test_a_drift_of_the_amplitude_is_found(drift):
         assert quality.deviation == pytest.approx(quality.deviation_of_noise, rel=0.4)
 
 
+def test_a_gap_leaves_rate_cycles_and_steadiness_as_they_are():
+    drive = replace(DRIVE, gap=(0.3, 0.6))
+    quality = tables_of(drive)["quality"].iloc[0]
+    assert quality.sampling_rate == pytest.approx(drive.rate, rel=1e-6)
+    assert quality.cycles == pytest.approx(drive.cycles, rel=1e-4)
+    assert quality.deviation == pytest.approx(quality.deviation_of_noise, rel=0.4)
+
+
 def test_offsets_and_noise_are_found(made):
     quality = made["quality"].iloc[0]
     assert [quality.along_offset, quality.normal_offset] == pytest.approx(DRIVE.offsets, abs=0.01)

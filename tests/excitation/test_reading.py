@@ -12,7 +12,8 @@ from project import ROOT
 
 import make
 from accelerometer import Drive
-from excitation.faults import RecordingError, checked, first_fit
+from conveyor import HARMONIC
+from excitation.faults import MOST_SHARE, RecordingError, checked, first_fit
 from excitation.reading import STANDARD_GRAVITY, parse, read_text
 from workflow.config import ConfigError, load_config
 from workflow.config.files import DEFAULT_FILES, merge, read_all
@@ -97,6 +98,15 @@ BAD_SIGNALS = {
         replace(DRIVE, unit="g", offsets=(0.0, STANDARD_GRAVITY * STANDARD_GRAVITY)),
         "leave excitation.unit out",
     ),
+    "minutes": (replace(DRIVE, frequency=3000.0, rate=120_000.0), "no conveyor does: write the time in s"),
+    "g called m/s²": (replace(DRIVE, acceleration=4.0, noise=0.02, offsets=(0.0, 1.0)), "set excitation.unit: g"),
+    "gravity along the track": (replace(DRIVE, offsets=(9.81, 0.4)), "check which column is which"),
+    "a drive that starts": (replace(DRIVE, drift=1.2), "is not steady: its amplitude at 50 Hz varies by "),
+    "two drives of nearly one frequency": (replace(DRIVE, angle=1.2, cycles=60.0, also={49.5: 20.0}), "is not steady"),
+    "a fundamental too weak for its harmonics": (
+        replace(DRIVE, harmonics=((2, 0.1, 0.0, 12.0, 0.5),), cycles=40.0),
+        "vibrates normal to the track 12 times as much at 100 Hz",
+    ),
     "no motion along the track": (replace(DRIVE, angle=1.5707), "shows no vibration along the track"),
     "no motion normal to it": (replace(DRIVE, angle=1e-4), "shows no vibration normal to the track"),
 }
@@ -140,6 +150,21 @@ def test_clipped_signals_are_rejected_with_their_first_line(limit, noise, mount)
     assert at_limit.index(True) + 2 == int(fault.split(":")[1])
 
 
+def test_a_sample_far_from_all_others_is_rejected_with_its_line():
+    time, along, _ = LINES[41].split(",")
+    fault = faults_of(with_line(42, f"{time},{along},{1e4}"))[0]
+    assert fault.startswith("mine.csv:42: normal = 1e+04 stands out of all other values; delete the line")
+
+
+def test_a_recording_of_gaps_is_rejected_with_the_line_after_the_first():
+    fault = faults_of(replace(DRIVE, gap=(0.1, 0.95), cycles=80.0).text())[0]
+    assert fault.startswith("mine.csv:322: follows a gap, and gaps are 85 % of the recording; keep a piece")
+
+
+def test_the_largest_share_is_the_models():
+    assert {MOST_SHARE} == {HARMONIC[name][2][1] for name in ("along", "normal")}
+
+
 @pytest.mark.parametrize(
     "changes",
     [
@@ -153,6 +178,9 @@ def test_clipped_signals_are_rejected_with_their_first_line(limit, noise, mount)
         {"jitter": 0.9, "mount": 0.3},
         {"random": True},
         {"gap": (0.3, 0.5), "cycles": 40.0},
+        # The mean interval with its gap would be too long for eight samples in a cycle, and for the fifth harmonic.
+        {"gap": (0.2, 0.7), "cycles": 80.0, "rate": 650.0, "harmonics": ((5, 0.2, 0.0, 0.2, 1.0),)},
+        {"offsets": (1.0, 9.8), "mount": 1.2},
         {"also": {77.0: 0.5}},
         {"also": {2.0: 5.0}},
         {"harmonics": ((2, 0.6, 1.0, 0.9, 0.0), (3, 0.3, 1.0, 0.9, 2.0))},
