@@ -1,9 +1,15 @@
 """A project that is built once from a small config, and copies of it for tests that change something."""
 
+import os
 import shutil
 
 import pytest
 from project import Project, copy_project
+
+
+def pytest_configure() -> None:
+    """One thread of BLAS, before NumPy is imported: with two in each worker, they wait for each other's cores."""
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 
 @pytest.fixture(scope="session")

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.signal import lfilter
 
 from excitation.reading import STANDARD_GRAVITY
 
@@ -55,10 +56,9 @@ class Drive:
         along, normal = self.plate(time)
         cosine, sine = np.cos(self.mount), np.sin(self.mount)
         readings = np.array([along * cosine + normal * sine, -along * sine + normal * cosine])
-        white = random.standard_normal((2, count))
-        noise = white.copy()
-        for place in range(1, count):
-            noise[:, place] = self.colour * noise[:, place - 1] + np.sqrt(1.0 - self.colour**2) * white[:, place]
+        noise = random.standard_normal((2, count))
+        noise[:, 1:] *= np.sqrt(1.0 - self.colour**2)
+        noise = lfilter([1.0], [1.0, -self.colour], noise)
         readings = readings + np.array(self.offsets)[:, None] + self.noise * noise
         if self.quantum:
             readings = self.quantum * np.round(readings / self.quantum)

@@ -10,9 +10,9 @@ import pytest
 import yaml
 from project import CONFIG_FILES, ROOT, Project, copy_project, merged, read_config
 
-from workflow.config import ConfigError, canonical, load_config
+from workflow.config import ConfigError, canonical, load_config, problems
 from workflow.config.entries import METHOD_SECTIONS, by_methods, resolve
-from workflow.config.files import DEFAULT_FILES, read
+from workflow.config.files import DEFAULT_FILES, parse_texts, read
 
 FAULTS = [
     ("model: {mass: 0.1}\nsolver: {}\nmodel: {angle: 0.1}\n", ":3: model is already set in line 1"),
@@ -172,12 +172,8 @@ def seconds_of_children() -> float:
 
 
 REFUSED = [
-    ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
-    ({"sweeps": {"amplitudes": {"axes": {"z0": {"num": 1e12}}}}}, "sweeps.amplitudes.axes.z0.num"),
     ({"prefix": "a\nb"}, "prefix = 'a\\nb' should be a folder name"),
-    ({"prefix": "a" * 300}, "prefix"),
     ({1: {}}, "config has a key that YAML reads as 1"),
-    ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "figures.fig03.tables.euler"),
     ({"orbits": {"seeds": [{"acceleration": -1.0, "z0": 0.0}] * 200}}, "195 more"),
 ]
 
@@ -210,20 +206,23 @@ def test_snakemake_names_file_and_line_of_an_overlay(project, tmp_path):
     assert_refused(run, "mine.yaml:2: model is already set in line 1")
 
 
-COMMANDS = [
-    ("model={mass: 0.1", "model = '{mass: 0.1' should be a valid mapping"),
-    ("model={mass: 050}", "model.mass = '050' is text to YAML"),
-    ("model={mass: -3.0}", "model.mass = -3.0 should be at least 1e-12 (kg)"),
-    ("model={masses: 3}", "model.masses is an unknown key; did you mean mass?"),
-    ("prefix=[x]", "prefix = ['x'] should be a valid string"),
-]
-
-
-@pytest.mark.parametrize(("value", "message"), COMMANDS, ids=[value for value, _ in COMMANDS])
-def test_values_of_the_command_line_are_checked(project, value, message):
-    run = project.called("--dry-run", "figures/fig22.pdf", "--config", value)
+def test_values_of_the_command_line_are_checked(project):
+    run = project.called("--dry-run", "figures/fig22.pdf", "--config", "model={mass: -3.0}", "prefix=[x]")
     assert "Traceback" not in run.stdout
-    assert_refused(run, message)
+    assert_refused(run, "model.mass = -3.0 should be at least 1e-12 (kg)")
+    assert "prefix = ['x'] should be a valid string" in run.stdout
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        ({"model": "{mass: 0.1"}, "model = '{mass: 0.1' should be a valid mapping"),
+        ({"model": {"mass": "050"}}, "model.mass = '050' is text to YAML"),
+        ({"model": {"mass": "-3.0"}}, "model.mass = -3.0 should be at least 1e-12 (kg)"),
+    ],
+)
+def test_texts_in_values_of_the_command_line_are_read_as_yaml_does(value, message):
+    assert message in problems(merged(read_config(), parse_texts(value)))[0]
 
 
 def test_nested_values_of_the_command_line_are_an_overlay(project, tmp_path):
@@ -232,22 +231,16 @@ def test_nested_values_of_the_command_line_are_an_overlay(project, tmp_path):
     under = Project(project.folder, overlay | {"model": {"damping": 0.3}})
     values = ("model={damping: 0.2}", "sweeps={amplitudes: {model: {friction: 0.3}, axes: {z0: [0, 1.0e-4]}}}")
     target = "results/nested/sweeps/amplitudes.parquet"
-    under.make(target, "--config", *values)
+    under.make_in_process(target, "--config", *values)
     settings = pd.read_parquet(project.folder / target).attrs
     assert settings["model"] == settings["model"] | {"damping": 0.2, "mass": 0.002, "friction": 0.3}
     assert settings["axes"]["z0"] == [0.0, 1.0e-4]
 
 
-LARGE = {
-    "list": "sweeps: {mine: {axes: {z0: [" + "0.0001," * 20_000 + "]}}}",
-    "anchors": "a0: &a0 [1, 1]\n" + "".join(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]\n" for i in range(1, 60)),
-}
-
-
-@pytest.mark.parametrize("name", LARGE)
-def test_a_large_file_is_rejected(project, tmp_path, name):
+def test_a_file_that_anchors_make_large_is_rejected(project, tmp_path):
+    """Before Snakemake reads it, which would take all memory."""
     file = tmp_path / "large.yaml"
-    file.write_text(LARGE[name])
+    file.write_text("a0: &a0 [1, 1]\n" + "".join(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]\n" for i in range(1, 60)))
     run = project.called("--dry-run", "figures/fig22.pdf", "--configfile", str(file))
     assert "Traceback" not in run.stdout
     assert_refused(run, "has more than 12,000 values")
@@ -266,13 +259,9 @@ def test_a_run_of_another_conveyor_says_first_what_was_scaled_and_dropped(projec
 
 def test_overlays_can_be_checked_without_snakemake(tmp_path):
     file, check = tmp_path / "mine.yaml", [sys.executable, "-m", "workflow.config"]
-    for text, expected in (
-        ("prefix: mine\nmodel: {damping: 0.2\n", f"{file}:3: is not YAML: "),
-        ("model: {damping: -1}", "model.damping = -1 should be at least 0"),
-    ):
-        file.write_text(text)
-        run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
-        assert run.returncode == 1 and expected in run.stderr
+    file.write_text("prefix: mine\nmodel: {damping: 0.2\n")
+    run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 1 and f"{file}:3: is not YAML: " in run.stderr
     file.write_text("model: {damping: 0.2}")
     run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 0 and "valid" in run.stdout

@@ -73,8 +73,9 @@ def may_be(path: tuple, value) -> bool:
 
 @pytest.mark.parametrize("section", SECTIONS)
 def test_a_value_of_another_type_is_reported(section):
-    for path, value in [((section,), CONFIG[section]), *places(section, *WRONG)]:
-        for wrong in WRONG[type(value)]:
+    """Each place gets every third of the wrong values, so that each of them is at a third of the places."""
+    for number, (path, value) in enumerate([((section,), CONFIG[section]), *places(section, *WRONG)]):
+        for wrong in WRONG[type(value)][number % 3 :: 3]:
             if not may_be(path, wrong):
                 assert_reported(put(path, wrong), path)
 
@@ -172,7 +173,3 @@ def test_a_missing_setting_of_a_script_is_reported(path):
 @pytest.mark.parametrize("config", [None, [], "model", 3], ids=repr)
 def test_a_section_that_is_not_a_mapping_is_reported(config):
     assert problems(config) == [f"config = {config!r} should be a valid mapping"]
-
-
-def test_there_are_enough_mutations():
-    assert sum(len(WRONG[type(value)]) for _, value in PLACES if type(value) in WRONG) > 10_000

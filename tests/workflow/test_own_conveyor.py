@@ -206,8 +206,9 @@ def test_a_figure_that_makes_no_sense_says_so():
     assert "figures/bowl/fig04.pdf cannot be made for this conveyor: its amplitudes lie" in run.stdout
 
 
-@pytest.mark.parametrize("target", ["article", "results/bowl/facts.json", "results/bowl/docs/identification.md"])
+@pytest.mark.parametrize("target", ["article", "results/bowl/docs/identification.md"])
 def test_pages_with_the_papers_results_say_that_they_need_its_config(target):
+    """The article needs the facts, and the page a table that is made from the claims."""
     run = Project(ROOT).called("--dry-run", target, "--configfile", str(EXAMPLES["bowl"]))
     assert run.returncode != 0
     assert "needs the paper's claims, which this config lacks; use the paper's config" in run.stdout
@@ -303,12 +304,6 @@ def test_scaled_numbers_of_a_list_stay_distinct():
     """The cascade of settling times has 72.97 and 73.0 m/s², which four digits would make equal here."""
     found = scale_config(CONFIG, {"prefix": "mine", "model": {"angle": 0.1}})["settling_times"]["acceleration"]
     assert len(set(found)) == len(CONFIG["settling_times"]["acceleration"])
-
-
-def test_tables_made_from_the_claims_of_the_paper_say_so(built):
-    run = built.snakemake("results/identification/numbers.parquet", "--dry-run")
-    assert run.returncode == 1
-    assert "numbers.parquet needs the paper's claims, which this config lacks; use the paper's config" in run.stdout
 
 
 def test_a_forgotten_prefix_is_named_first():

@@ -1,4 +1,4 @@
-"""Plates with harmonics: other integrators, balances, the properties of every motion, and who refuses them."""
+"""Plates with harmonics: another integrator, balances, the properties of every motion, and who refuses them."""
 
 import math
 
@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numba import njit
 from scipy.integrate import solve_ivp
 
 from conveyor import (
@@ -124,101 +123,8 @@ def by_dop853(conveyor: Conveyor, z: float, times: np.ndarray) -> np.ndarray:
     return found
 
 
-@njit
-def by_rk4(waves, contact, track, y, duration, step):
-    """x, ẋ, z and ż at the end by Runge-Kutta steps of one length; an event ends its step early.
-
-    waves : of each cosine, order, amplitude normal to the track (m/s²), its phase at t = 0, and both along it, (n, 5)
-    contact : k_c/m, d_c/m and p
-    track : circular frequency (1/s), components of gravity normal to the track and down along it (m/s²), and friction
-    """
-    omega, gravity, downhill, friction = track
-
-    def plate(t):
-        z = vz = vx = ax = 0.0
-        for order, normal, normal_phase, along, along_phase in waves:
-            frequency = order * omega
-            phase, other = frequency * t + normal_phase, frequency * t + along_phase
-            z -= normal / frequency**2 * math.cos(phase)
-            vz += normal / frequency * math.sin(phase)
-            vx += along / frequency * math.sin(other)
-            ax += along * math.cos(other)
-        return z, vz, vx, ax
-
-    def force(z, vz, y):
-        return contact[0] * max(z - y[2], 0.0) ** contact[2] + contact[1] * (vz - y[3])
-
-    def rates(t, y, touching, sigma):
-        z, vz, _, ax = plate(t)
-        push = force(z, vz, y) if touching else 0.0
-        pull = (ax if sigma == 0.0 else sigma * friction * push - downhill) if touching else -downhill
-        return np.array([y[1], pull, y[3], push - gravity])
-
-    def after(t, y, h, touching, sigma):
-        a = rates(t, y, touching, sigma)
-        b = rates(t + 0.5 * h, y + 0.5 * h * a, touching, sigma)
-        c = rates(t + 0.5 * h, y + 0.5 * h * b, touching, sigma)
-        d = rates(t + h, y + h * c, touching, sigma)
-        return y + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
-
-    def signs(t, y, touching, sigma):
-        """Two functions that are positive in a mode; the first ends contact or flight, the second slip or stick."""
-        z, vz, vx, ax = plate(t)
-        gap = y[2] - z
-        if not touching:
-            return gap, 1.0
-        grip = friction * force(z, vz, y) - abs(ax + downhill)
-        return -gap, grip if sigma == 0.0 else sigma * (vx - y[1])
-
-    def mode_after(t, y, touching, sigma, ended):
-        z, vz, vx, ax = plate(t)
-        if ended == 0:
-            return not touching, math.copysign(1.0, vx - y[1])
-        direction = math.copysign(1.0, ax + downhill)
-        return touching, direction if sigma == 0.0 or friction * force(z, vz, y) < abs(ax + downhill) else 0.0
-
-    t, touching = 0.0, y[2] <= plate(0.0)[0]
-    sigma = math.copysign(1.0, plate(0.0)[2] - y[1])
-    while t < duration:
-        h = min(step, duration - t)
-        before, new = signs(t, y, touching, sigma), after(t, y, h, touching, sigma)
-        now = signs(t + h, new, touching, sigma)
-        ended = -1
-        for k in range(2):
-            if before[k] > 0.0 and now[k] <= 0.0:
-                low, high = 0.0, h
-                while high - low > 1e-16 * duration:
-                    middle = 0.5 * (low + high)
-                    if signs(t + middle, after(t, y, middle, touching, sigma), touching, sigma)[k] > 0.0:
-                        low = middle
-                    else:
-                        high = middle
-                h, ended = high, k
-                now = signs(t + h, after(t, y, h, touching, sigma), touching, sigma)
-        y = after(t, y, h, touching, sigma)
-        t += h
-        if ended >= 0:
-            touching, sigma = mode_after(t, y, touching, sigma, ended)
-    return y
-
-
-def rk4_end(conveyor: Conveyor, z: float, duration: float, step: float) -> np.ndarray:
-    """x, ẋ, z and ż at the end, shape (4,)."""
-    a_z, a_x = conveyor.acceleration * math.sin(conveyor.angle), conveyor.acceleration * math.cos(conveyor.angle)
-    waves = [(1, a_z, conveyor.psi0, a_x, conveyor.psi0 + conveyor.phase_shift)]
-    for order, along, along_phase, normal, normal_phase in conveyor.harmonics:
-        shift = order * conveyor.psi0
-        waves.append((order, a_z * normal, shift + normal_phase, a_x * along, shift + along_phase))
-    contact = conveyor.stiffness / conveyor.mass, conveyor.damping / conveyor.mass, conveyor.exponent
-    gravity, inclination = conveyor.gravity, conveyor.inclination
-    track = gravity * math.cos(inclination), gravity * math.sin(inclination), conveyor.friction
-    begin = np.array([0.0, 0.0, z, 0.0])
-    return by_rk4(np.array(waves), contact, (2.0 * math.pi * conveyor.frequency, *track), begin, duration, step)
-
-
-@pytest.mark.parametrize("seed", range(30))
-def test_other_integrators_agree(seed):
-    """DOP853 of SciPy, and Runge-Kutta steps whose length goes to zero."""
+@pytest.mark.parametrize("seed", range(12))
+def test_dop853_agrees(seed):
     generator = np.random.default_rng(seed)
     exponent = [1.0, 1.5, 1.5, 2.2][seed % 4]
     contact = {"exponent": exponent, "stiffness": 1500.0 if exponent == 1.0 else 5e5}
@@ -229,10 +135,6 @@ def test_other_integrators_agree(seed):
     sample, largest = run.sample(times), np.abs(expected).max(axis=0)
     for k, name in enumerate(("x", "vx", "z", "vz")):
         assert np.abs(sample[name] - expected[:, k]).max() < 1e-9 * largest[k]
-    end = np.array([sample[name][-1] for name in ("x", "vx", "z", "vz")])
-    errors = [np.max(np.abs(rk4_end(conveyor, z, DURATION, step) - end) / largest) for step in (8e-7, 2e-7)]
-    assert errors[1] < 1e-9
-    assert errors[1] < 0.2 * errors[0] or errors[0] < 1e-10  # below which a sum of so many steps rounds
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -294,7 +196,7 @@ def harmonics(draw):
     return [Harmonic(order, draw(share), draw(phase), draw(share), draw(phase)) for order in orders]
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=80, deadline=None)
 @given(
     waves=harmonics(),
     acceleration=st.floats(0.0, 150.0),
