@@ -10,7 +10,7 @@ import pyarrow as pa
 from pipeline import fields
 from pipeline.templates import render
 from workflow.config.stages import STAGES
-from workflow.config.tables import TABLES
+from workflow.config.tables import NAMED, TABLES
 
 WITHOUT_TABLES = ("figures", "docs")
 
@@ -23,14 +23,14 @@ def modules_of(stage: str) -> list[ModuleType]:
     return [module for module in modules if hasattr(module, "TABLES")]
 
 
-def file_of(kind: str, kinds: Collection[str]) -> str:
+def file_of(kind: str, kinds: Collection[str], stage: str) -> str:
     """The file of the tables of a kind; NAME stands for the name of an entry of the config.
 
     kinds : of all tables of the module, which tell folders with tables of the same name apart
     """
-    folders = [reference.split("/")[0] for reference in TABLES if reference.split("/")[1] == kind]
-    if not folders:
+    if kind in NAMED:
         return f"results/{kind}/NAME.parquet"
+    folders = [reference.split("/")[0] for reference in TABLES if reference.split("/")[1] == kind] or [stage]
     folder = next((one for one in folders if all(f"{one}/{other}" in TABLES for other in kinds)), folders[0])
     return f"results/{kind}.parquet" if folder == "results" else f"results/{folder}/{kind}.parquet"
 
@@ -48,7 +48,7 @@ def make(template: str) -> str:
         stage: [
             {
                 "kind": kind,
-                "file": file_of(kind, module.TABLES),
+                "file": file_of(kind, module.TABLES, stage),
                 "columns": [describe(column) for column in schema],
             }
             for module in modules_of(stage)

@@ -19,8 +19,8 @@ def test_every_module_with_tables_is_listed():
 
 def test_paths_are_the_paths_of_the_workflow():
     stages = set(STAGES) - set(tables_page.WITHOUT_TABLES)
-    tables = [module.TABLES for stage in stages for module in tables_page.modules_of(stage)]
-    shown = {tables_page.file_of(kind, kinds) for kinds in tables for kind in kinds}
+    tables = [(stage, module.TABLES) for stage in stages for module in tables_page.modules_of(stage)]
+    shown = {tables_page.file_of(kind, kinds, stage) for stage, kinds in tables for kind in kinds}
     for reference in references(read_config()):
         folder, name = reference.split("/")
         file = f"results/{name}.parquet" if folder == "results" else f"results/{folder}/{name}.parquet"

@@ -13,7 +13,7 @@ from conveyor.solver import model
 from workflow.config import problems
 from workflow.config.entries import by_methods, resolve
 from workflow.config.schema import schema_at
-from workflow.config.tables import references, settings_of
+from workflow.config.tables import kind_of, references, settings_of
 
 CONFIG = read_config()
 MINE = {"axes": {"acceleration": {"start": 30, "stop": 40, "num": 3}, "z0": [0.0, "conveyor"]}}
@@ -413,9 +413,19 @@ def test_an_entry_depends_on_what_it_uses_only():
     assert "tolerance" not in euler
 
 
-def test_a_table_that_is_not_declared_is_named():
-    with pytest.raises(ValueError, match="operating/counted is no table; add it to TABLE_SETTINGS"):
-        settings_of(CONFIG, "operating/counted")
+def test_a_new_table_depends_on_the_model_and_on_the_section_of_its_name():
+    model = {name: value for name, value in CONFIG["model"].items() if name != "acceleration"}
+    assert settings_of(CONFIG, "operating/counted") == {"model": model}
+    assert settings_of({**CONFIG, "counted": {"runs": 3}}, "operating/counted") == {"runs": 3, "model": model}
+    assert kind_of("operating/counted") == "counted"
+
+
+def test_a_new_table_is_known_if_the_default_config_reads_it():
+    figures = {"fig01": {"tables": {"counted": "operating/counted"}}}
+    changed = merged(CONFIG, {"figures": figures})
+    (line,) = problems(changed, merged(CONFIG, {"figures": {"fig01": {"tables": {"counted": "operating/shares"}}}}))
+    assert line.startswith("figures.fig01.tables.counted = 'operating/counted' is unknown; did you mean")
+    assert problems(changed, changed) == []
 
 
 ALONG = {"friction": 0.2, "phase_shift": 0.4, "static_friction": 0.3}

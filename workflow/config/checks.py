@@ -28,7 +28,7 @@ from .files import DEFAULT_FILES, ROOT, merge, read_all
 from .model import MODEL
 from .own_conveyor import is_own_conveyor
 from .sharing import plan
-from .tables import TABLES, entry_of, references
+from .tables import NAMED, TABLES, entry_of, references, references_of
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
 RESERVED = {*ENTRIES, *(table.split("/")[0] for table in TABLES), "precision", "precision_times", "article", "claims"}
@@ -211,7 +211,10 @@ def dimensions(config: dict, defaults: dict) -> Iterator[str]:
 def unknown_references(config: dict, defaults: dict) -> Iterator[str]:
     """Names of tables, entries and presets that the config does not have."""
     single = by_methods(config)
-    tables, fitted = references(single), single["critical"]
+    # A table that is no entry is known if it is in TABLES, or if the default config reads it.
+    read = [reference for section in (*FIGURES, "claims") for reference in references_of(defaults[section])]
+    tables = [*references(single), *(reference for reference in read if reference.split("/")[0] not in NAMED)]
+    fitted = single["critical"]
     used = [
         (f"{user}.{name}.{key}.{role}", table, tables)
         for user in (*FIGURES, "claims")

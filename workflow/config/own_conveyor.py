@@ -12,12 +12,11 @@ from typing import Any
 from scripts.conveyor import normal_gravity
 from scripts.pipeline.table_settings import without_tangential
 
-from .entries import FIGURES, METHOD_SECTIONS, by_methods
+from .entries import ENTRIES, FIGURES, METHOD_SECTIONS, by_methods
 from .errors import ConfigError
 from .files import merge
 from .model import MODEL
 from .schema import child, full_schema, schema_at, unit_of
-from .tables import references
 
 # Parameters of the conveyor and the part; the other parameters of the model are settings of a run.
 CONVEYOR = (
@@ -118,14 +117,19 @@ def drop_figures(config: dict, overlay: dict) -> None:
 
     The figure of the sensitivities needs derivatives in dimensionless groups, which a plate with harmonics has not.
     """
-    tables = references(by_methods(merge(config, overlay)))
+    single = by_methods(merge(config, overlay))
+
+    def remains(reference: str) -> bool:
+        section, name = reference.split("/")
+        return section not in ENTRIES or name in single[section]
+
     for section in FIGURES:
         for name, entry in list(config[section].items()):
             no_harmonics = name == "sensitivity" and overlay["model"].get("harmonics")
             if ("paper_only" in entry or no_harmonics) and name not in overlay.get(section, ()):
                 del config[section][name]
             for key in {"tables", "caption_tables"} & entry.keys():
-                entry[key] = {role: table for role, table in entry[key].items() if table in tables}
+                entry[key] = {role: table for role, table in entry[key].items() if remains(table)}
             # A figure of the paper that the overlay names cannot be drawn without its marks.
             if "settings" in entry and "paper_only" not in entry:
                 entry["settings"] = {key: value for key, value in entry["settings"].items() if key not in MARKS}

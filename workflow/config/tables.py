@@ -9,25 +9,36 @@ import itertools
 
 from scripts.accuracy.scenes import SCENES
 from scripts.accuracy.settings import precision_settings
+from scripts.pipeline.table_settings import model_of
 
 from .entries import ENTRIES, TIGHTER, resolve
 from .stages import declared
 
-# The tables that are not entries, and the function that returns the settings of each.
+# Tables that are not entries, and the function that returns the settings of each. A table that is missing here depends
+# on the model and, if there is one, on the section of its name.
 TABLES = declared("TABLE_SETTINGS")
+# Kinds with a table for each entry, or for each scene.
+SCENE_TABLES = ("precision", "precision_times")
+NAMED = (*ENTRIES, *SCENE_TABLES)
 
 
 def references(config: dict) -> list[str]:
-    """All tables of a config, as SECTION/NAME."""
+    """All tables of a config that are entries, of a scene or in TABLES, as SECTION/NAME."""
     entries = [f"{section}/{name}" for section in ENTRIES for name in config[section]]
-    scenes = [f"{kind}/{scene}" for kind in ("precision", "precision_times") for scene in SCENES]
+    scenes = [f"{kind}/{scene}" for kind in SCENE_TABLES for scene in SCENES]
     return [*entries, *TABLES, *scenes]
 
 
+def references_of(entries: dict) -> list[str]:
+    """The tables that claims read, or figures with their captions."""
+    roles = [entry.get(key, {}) for entry in entries.values() for key in ("tables", "caption_tables")]
+    return sorted({reference for of_entry in roles for reference in of_entry.values()})
+
+
 def kind_of(reference: str) -> str:
-    """The kind of the table SECTION/NAME: its section if it is an entry, else its name."""
+    """The kind of the table SECTION/NAME: its section if it is an entry or of a scene, else its name."""
     section, name = reference.split("/")
-    return name if reference in TABLES else section
+    return section if section in NAMED else name
 
 
 def entry_of(config: dict, reference: str) -> dict:
@@ -41,10 +52,10 @@ def settings_of(config: dict, reference: str) -> dict:
     section, name = reference.split("/")
     if reference in TABLES:
         return TABLES[reference](config)
-    if section in ("precision", "precision_times"):
+    if section in SCENE_TABLES:
         return precision_settings(config, name)
     if section not in ENTRIES:
-        raise ValueError(f"{reference} is no table; add it to TABLE_SETTINGS in the settings of its stage")
+        return {**config.get(name, {}), "model": model_of(config)}
     return config[section][name] if section == "regressions" else resolve(config, section, name)
 
 

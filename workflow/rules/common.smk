@@ -10,7 +10,7 @@ from scripts.pipeline.source_hash import source_hash
 from workflow.config.entries import ENTRIES, resolve
 from workflow.config.files import DEFAULT_FILES, ROOT
 from workflow.config.sharing import THREADS, plan
-from workflow.config.tables import kind_of, settings_of
+from workflow.config.tables import kind_of, references_of, settings_of
 
 # Keep pyarrow's allocator from huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more
 # memory with them.
@@ -253,12 +253,6 @@ def tables_of_figure(wildcards):
     if reason := NO_FIGURES.get(wildcards.figure):
         raise WorkflowError(f"{figure_file(wildcards.figure)} cannot be made for this conveyor: {reason}")
     return {role: table(reference) for role, reference in FIGURES[wildcards.figure]["tables"].items()}
-
-
-def references_of(entries):
-    """The tables that claims read, or figures with their captions."""
-    roles = [entry.get(key, {}) for entry in entries.values() for key in ("tables", "caption_tables")]
-    return sorted({reference for of_entry in roles for reference in of_entry.values()})
 
 
 def captioned(wildcards):
