@@ -287,6 +287,35 @@ def test_overlays_in_front_of_the_conveyor_are_scaled_and_later_ones_are_not(tmp
     assert loaded(tmp_path, coarse, conveyor, {"operating": {"resolution": 1.0}})["operating"]["resolution"] == 1.0
 
 
+SECOND = [{"order": 2, "along": 0.1, "along_phase": 0.0, "normal": 0.1, "normal_phase": 0.0}]
+
+
+@pytest.mark.parametrize(
+    ("overlay", "expected"),
+    [
+        (
+            {"model": {"frequency": 100.0}},
+            (
+                "itself: heights × 0.25, velocities × 0.5, times × 0.5",
+                "led: amplitudes, time steps of fixed-step methods.",
+            ),
+        ),
+        ({"model": {"gravity": 19.62}}, ("itself: amplitudes × 2, heights × 2, velocities × 2, ", "led: times.")),
+        ({"model": {"mass": 2.8e-3}}, ("itself: time steps", "methods × 1.429. Not scaled: amplitudes, heights, vel")),
+        ({"model": {"friction": 0.2}}, ("paper's. Not scaled: amplitudes, heights, velocities, times, time steps",)),
+        ({"model": {"harmonics": SECOND}}, ("fit_valley, sensitivity, harmonics", "interval of its fit; differences")),
+        ({"parts": {"mass": 0.1}, "model": {"mass": 2.8e-3}}, ("interval of its fit.",)),
+        ({"operating": {"acceleration": [30.0]}}, ()),
+    ],
+)
+def test_the_notice_says_what_was_scaled_and_dropped(tmp_path, overlay, expected):
+    file = tmp_path / "own.yaml"
+    file.write_text(yaml.safe_dump({"prefix": "own", **overlay}))
+    notice = load_config(DEFAULT_FILES, [file], {}).notice
+    assert bool(notice) == bool(expected)
+    assert [words for words in expected if words not in notice] == []
+
+
 def test_lengths_of_tracks_and_parts_are_not_scaled(tmp_path):
     front, own = tmp_path / "front.yaml", tmp_path / "own.yaml"
     front.write_text("transit: {length: 0.7}\nadvice: {part_length: 0.02}\n")

@@ -30,6 +30,8 @@ DIGITS, EXACT = (
     17,
 )  # of scaled amplitudes, heights and velocities, which stand on axes and in titles; of other numbers
 ROUNDED = ("m/s²", "m", "m/s", "m²/s²")
+# Names of the scaled quantities, and their units.
+SCALED = {"amplitudes": "m/s²", "heights": "m", "velocities": "m/s", "times": "s"}
 STEPS = 4000  # the steps per excitation cycle are a multiple of this number, so that samples lie on steps
 
 
@@ -169,23 +171,19 @@ def scale_config(paper: dict, overlay: dict) -> dict:
 def describe_scaling(paper: dict, config: dict) -> str:
     """What was scaled to another conveyor, by which factors, and what was dropped, on one line."""
     ratios = scale_ratios(paper["model"], config["model"])
-    scaled = {"amplitudes": "m/s²", "heights": "m", "velocities": "m/s", "times": "s"}
-    factors = ", ".join(f"{name} × {ratios[unit]:.4g}" for name, unit in scaled.items())
-    figures = [
-        name
-        for section in FIGURES
-        for name, entry in paper[section].items()
-        if "paper_only" in entry and name not in config[section]
-    ]
-    differ = (value for name, value in config["parts"].items() if name != "seed")
+    factors = {name: ratios[unit] for name, unit in SCALED.items()}
+    factors["time steps of fixed-step methods"] = scaled_step(paper, config["model"]) / paper["solver"]["step"]
+    changed = [f"{name} × {factor:.4g}" for name, factor in factors.items() if abs(factor - 1.0) > 1e-9]
+    kept = [name for name, factor in factors.items() if abs(factor - 1.0) <= 1e-9]
+    scaled = f"Scaled, except for values that your config gives itself: {', '.join(changed)}. " if changed else ""
+    unscaled = f"Not scaled: {', '.join(kept)}. " if kept else ""
+    figures = [name for name in paper["figures"] if name not in config["figures"]]
     dropped = [
         *([] if config["claims"] else ["the paper's claims"]),
         *(["figures " + ", ".join(figures)] if figures else []),
         "marks of the paper in figures",
         "tables of the paper's method that your config does not name",
-        *([] if any(differ) else ["differences between parts"]),
+        *([] if "seeds" in config["orbits"] else ["the paper's first orbits and the interval of its fit"]),
+        *([] if any(value for name, value in config["parts"].items() if name != "seed") else ["differences of parts"]),
     ]
-    return (
-        f"{config['prefix']} is another conveyor than the paper's. Scaled, except for values that your config gives "
-        f"itself: {factors}. Dropped: {'; '.join(dropped)}."
-    )
+    return f"{config['prefix']} is another conveyor than the paper's. {scaled}{unscaled}Dropped: {'; '.join(dropped)}."
