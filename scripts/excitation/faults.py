@@ -9,7 +9,18 @@ from pathlib import Path
 
 import numpy as np
 
-from .harmonics import Fit, duration_of, fit, gaps_of, orders_of, sampling_rate, spectrum, steadiness, strongest
+from .harmonics import (
+    PADDING,
+    Fit,
+    duration_of,
+    fit,
+    gaps_of,
+    orders_of,
+    sampling_rate,
+    spectrum,
+    steadiness,
+    strongest,
+)
 from .reading import STANDARD_GRAVITY, UNITS, Recording, RecordingError, line_of_sample, parse, read_text
 
 __all__ = ["RecordingError", "checked", "first_fit", "read_text"]
@@ -29,8 +40,8 @@ MOST_GAPS = 0.75  # share of the recording without samples, beyond which cycles 
 OUTLIER = 20.0  # times the 95 % quantile of a column, from which a sample is no vibration
 UNSTEADY = 0.15  # relative standard deviation of the amplitude, above which its mean is no parameter of the drive
 # A further line counts from this share of the fundamental of its axis, if its power is this multiple of the noise's
-# median power, and if it is this far from all multiples of the fundamental, in units of 1/T.
-SHARE, OUT_OF_NOISE, FOOT = 0.05, 40.0, 2.0
+# median power nearby, and if it is this far from all multiples of the fundamental; the last two in units of 1/T.
+SHARE, OUT_OF_NOISE, NEARBY, FOOT = 0.05, 40.0, 20, 2.0
 MOST_SUBHARMONIC = 4  # the fundamental may be weaker than its harmonics up to this order
 NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does not vibrate
 # A clipped signal stays at its extreme value far longer than near it.
@@ -57,6 +68,8 @@ def clipped(readings: np.ndarray, quantum: float) -> int | None:
 
 def further_line(time: np.ndarray, fitted: Fit) -> tuple[float, float] | None:
     """Frequency (Hz) and amplitude (m/s²) of the strongest line that is no multiple of the fundamental, or None."""
+    from scipy.ndimage import median_filter
+
     frequencies, amplitudes = spectrum(time, fitted.residual)
     resolution = 1.0 / duration_of(time)
     multiple = np.round(frequencies / fitted.frequency)
@@ -65,11 +78,12 @@ def further_line(time: np.ndarray, fitted: Fit) -> tuple[float, float] | None:
     searched = ~own & (frequencies > max(fitted.frequency / (MOST_SUBHARMONIC + 0.5), 3.0 * resolution))
     if not searched.any():
         return None
+    # Coloured noise is strong only near some frequencies, so its median nearby counts.
+    noise = median_filter(amplitudes, (1, NEARBY * PADDING), mode="nearest")
     shares = amplitudes / np.abs(fitted.amplitudes[:, :1])
-    axis, place = np.unravel_index(np.argmax(np.where(searched, shares, 0.0)), shares.shape)
-    amplitude = amplitudes[axis, place]
-    stands_out = amplitude**2 > OUT_OF_NOISE * np.median(amplitudes[axis, searched] ** 2)
-    return (float(frequencies[place]), float(amplitude)) if shares[axis, place] > SHARE and stands_out else None
+    counts = searched & (amplitudes**2 > OUT_OF_NOISE * noise**2) & (shares > SHARE)
+    axis, place = np.unravel_index(np.argmax(np.where(counts, shares, 0.0)), shares.shape)
+    return (float(frequencies[place]), float(amplitudes[axis, place])) if counts[axis, place] else None
 
 
 def first_fit(time: np.ndarray, signals: np.ndarray, orders: int = CHECKED_ORDERS) -> tuple[Fit, tuple | None]:

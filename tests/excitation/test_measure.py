@@ -175,4 +175,4 @@ def test_a_plate_that_throws_backwards_is_named():
     template = (ROOT / "workflow/templates/excitation.md").read_text()
     names = ("parameters", "harmonics", "quality")
     text = page.make(template, *(made[name] for name in names), comparison(0.01, 0.04), "mine")
-    assert "the plate throws backwards" in text
+    assert "normal to it by 172°: **the plate throws backwards**" in " ".join(text.split())

@@ -181,6 +181,7 @@ def test_the_largest_share_is_the_models():
         # The mean interval with its gap would be too long for eight samples in a cycle, and for the fifth harmonic.
         {"gap": (0.2, 0.7), "cycles": 80.0, "rate": 650.0, "harmonics": ((5, 0.2, 0.0, 0.2, 1.0),)},
         {"offsets": (1.0, 9.8), "mount": 1.2},
+        {"acceleration": 4.0, "noise": 1.0, "colour": 0.95, "cycles": 200.0, "rate": 1000.0},
         {"also": {77.0: 0.5}},
         {"also": {2.0: 5.0}},
         {"harmonics": ((2, 0.6, 1.0, 0.9, 0.0), (3, 0.3, 1.0, 0.9, 2.0))},
@@ -262,6 +263,20 @@ def test_the_file_is_relative_to_its_overlay(tmp_path):
         config = load(tmp_path, overlay, *others)
         assert os.path.samefile(config["excitation"]["measured"], tmp_path / "folder_0/mine.csv")
         assert "excitation" in config["figures_on_request"]
+
+
+def test_an_overlay_with_a_file_keeps_its_parts_and_axes_before_the_measured_drive(tmp_path):
+    (tmp_path / "folder_0").mkdir()
+    (tmp_path / "folder_0/mine.csv").write_text(GOOD)
+    overlay = {
+        "prefix": "mine",
+        "excitation": {"measured": "mine.csv"},
+        "parts": {"friction": 0.1},
+        "operating": {"acceleration": {"start": 25.0, "stop": 50.0, "num": 6}},
+    }
+    config = load(tmp_path, overlay, {"model": {"frequency": 49.9, "angle": 0.3}})
+    assert config["parts"]["friction"] == 0.1
+    assert config["operating"]["acceleration"]["stop"] == 50.0
 
 
 @pytest.mark.parametrize(

@@ -50,6 +50,11 @@ def name_measurements(config: dict, files: Sequence[str | Path], contents: list[
                 config[section][key] = os.path.join(os.path.dirname(file), own[key])
 
 
+def describes_conveyor(paper: dict, overlay: dict) -> bool:
+    """Whether an overlay is for a conveyor other than the paper's: by its parameters, or by measurements of it."""
+    return names_conveyor(paper, overlay) or any(key in overlay.get(section, {}) for section, key in MEASURED_FILES)
+
+
 def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str | Path], config: dict) -> Loaded:
     """The config of a run; ConfigError says what is wrong with it in at most six lines.
 
@@ -67,7 +72,7 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
         raise ConfigError(errors)
     if own_conveyor := is_own_conveyor(paper, whole):
         # The overlays in front of the conveyor's, such as config/reduced.yaml, are for the paper's conveyor.
-        before = list(itertools.takewhile(lambda overlay: not names_conveyor(paper, overlay), overlays))
+        before = list(itertools.takewhile(lambda overlay: not describes_conveyor(paper, overlay), overlays))
         own = merge(*overlays[len(before) :], changed_values(merge(*overlays), config))
         base = merge(paper, *before)
         if errors := type_problems(base):
