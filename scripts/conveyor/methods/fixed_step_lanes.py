@@ -11,10 +11,10 @@ import numpy as np
 
 from ..parameters import PARAMETERS
 from ..solver import model, plate
-from ..solver.contact_lanes import LANES, place
+from ..solver.contact_lanes import LANES
 from ..solver.contact_law import coefficients_per_mass
 from ..solver.jit import compiled, compiled_inline
-from .force_law import least_push, least_rub, power_of_depth
+from .force_law import least_push, least_rub
 from .recording import record_events, record_results, record_samples
 from .scheme import (
     COS_SHIFT,
@@ -24,6 +24,7 @@ from .scheme import (
     EVALUATIONS,
     EXPONENT,
     FRICTION,
+    GAP,
     GRAVITY,
     IN_CONTACT,
     LAST_SLIP,
@@ -35,10 +36,7 @@ from .scheme import (
     PLATE_VX,
     PLATE_VZ,
     PLATE_Z,
-    POWER,
     PSI0,
-    SEMI_IMPLICIT_EULER,
-    SHAPES,
     SIN_SHIFT,
     STATIC_FRICTION,
     STIFFNESS,
@@ -49,11 +47,9 @@ from .scheme import (
     count_step,
     find_forces,
     shapes_at,
-    shapes_in_memory,
     sine_and_cosine_by,
     take_step,
     turn_plate,
-    write_shapes,
     written_shapes,
 )
 
@@ -75,22 +71,6 @@ def turn_plates(kind, memory, i, step, shapes):
 
 
 @compiled_inline
-def find_forces_of_all(kind, lanes, memory):
-    """`find_forces` of all lanes, with the plate's Shapes in memory. Returns whether a gap has opened or closed."""
-    if kind.has_powers:
-        # In a loop of its own, because powers take one number at a time.
-        for k in range(lanes):
-            lane = np.uint64(k)
-            gap = memory[place(Z, lane)] - memory[place(PLATE_Z, lane)] * memory[place(SHAPES, lane)]
-            memory[place(POWER, lane)] = power_of_depth(-gap, memory[place(EXPONENT, lane)])
-    changed = False
-    for k in range(lanes):
-        lane = np.uint64(k)
-        changed |= find_forces(kind, memory, lane, shapes_in_memory(memory, lane))
-    return changed
-
-
-@compiled_inline
 def take_steps(kind, lanes, memory, i, stop, step, plates):
     """Take steps from number i on, to `stop` or until a gap opens or closes. Returns the number of the next step.
 
@@ -109,13 +89,7 @@ def take_steps(kind, lanes, memory, i, stop, step, plates):
                 shapes = turn_plate(kind, memory, lane, i, step)
             count_step(memory, lane)
             take_step(kind, memory, lane, shapes, step)
-            if kind.has_powers:
-                write_shapes(memory, lane, shapes[0])
-            else:
-                # In the same loop, which halves the time.
-                changed |= find_forces(kind, memory, lane, shapes[0])
-        if kind.has_powers:
-            changed = find_forces_of_all(kind, lanes, memory)
+            changed |= find_forces(kind, memory, lane, shapes[0])
         i += 1
     return i
 
@@ -145,13 +119,13 @@ def prepare(kind, parameters, flat, memory, lane):
     for k in range(len(parameters) - FIRST_WAVE):
         memory[WAVES + k, lane] = parameters[FIRST_WAVE + k]
     shapes = shapes_at(kind, flat, np.uint64(lane), parameters[model.PSI0])
-    write_shapes(flat, np.uint64(lane), shapes)
     memory[LAST_SLIP, lane] = memory[PLATE_VX, lane] * shapes.vx
     surface = memory[PLATE_Z, lane] * shapes.z
     memory[Z, lane] = surface if math.isnan(parameters[model.Z0]) else parameters[model.Z0]
     memory[VZ, lane] = parameters[model.VZ0]
     memory[MAX_GAP, lane] = memory[Z, lane] - surface
     memory[IN_CONTACT, lane] = memory[MAX_GAP, lane] <= 0.0
+    find_forces(kind, flat, np.uint64(lane), shapes)
 
 
 @functools.cache
@@ -162,10 +136,7 @@ def compiled_for(kind):
     @compiled
     def integrate(parameters, step, n_steps, sample_indices, samples, events, results, work):
         flat, memory = work
-        # LLVM makes faster code for a known number of lanes: sweeps take 0.79 to 0.99 of the time. Not so for
-        # semi-implicit Euler (1.15 if plates are alike) and for powers (up to twice the time).
-        is_known = method != SEMI_IMPLICIT_EULER and not kind.has_powers
-        lanes = 1 if kind.single else LANES if is_known else memory.shape[1]
+        lanes = 1 if kind.single else LANES
         running = np.empty(lanes, np.bool_)
         plates = np.empty(4 * CHECK)
         for first in range(0, len(parameters), lanes):
@@ -173,11 +144,10 @@ def compiled_for(kind):
             for k in range(len(flat)):
                 flat[k] = 0.0
             for lane in range(lanes):
-                memory[Z, lane] = 1.0
+                memory[Z, lane] = memory[GAP, lane] = 1.0
                 running[lane] = first + lane < len(parameters)
                 if running[lane]:
                     prepare(kind, parameters[first + lane], flat, memory, lane)
-            find_forces_of_all(kind, lanes, flat)
             i = n_sampled = 0
             while True:
                 while n_sampled < len(sample_indices) and sample_indices[n_sampled] <= i:
@@ -212,7 +182,6 @@ def kind_of(method: int, parameters: np.ndarray) -> Kind:
         method,
         single=len(parameters) == 1,
         alike=bool((plates == plates[:1]).all()),
-        tilted=bool((parameters[:, [model.INCLINATION, model.PHASE_SHIFT]] != 0.0).any()),
         sticks=bool((parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any()),
         has_powers=bool((~np.isin(parameters[:, model.EXPONENT], (1.0, 1.5))).any()),
         waves=tuple(rows.tolist()),

@@ -26,15 +26,15 @@ EVALUATIONS = (1, 1, 4)
 X, VX, Z, VZ, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, FORCE_EVALUATIONS, STATUS, IMPACT_SPEED, PEAK_FORCE = range(12)
 RESULTS = 12
 # At the present step: gap (m), forces per mass (m/s²), whether the gap was last seen closed (1 or 0), the slip velocity
-# (m/s) at the last step; only for exponents other than 1 and 1.5, δ^p (m^p) and the plate's Shapes.
-GAP, PUSH, RUB, IN_CONTACT, LAST_SLIP, POWER, SHAPES = range(12, 19)
+# (m/s) at the last step.
+GAP, PUSH, RUB, IN_CONTACT, LAST_SLIP = range(12, 17)
 # Constants: ω (rad/s), ψ0 (rad), plate.amplitudes; k_c/m, d_c/m, p, μ, μ_s, gravity normal to the track and down along
 # it (m/s²); force_law.least_push and least_rub; cosine and sine of the phase shift.
-OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX, PLATE_AX = range(22, 28)
-STIFFNESS, DAMPING, EXPONENT, FRICTION, STATIC_FRICTION, GRAVITY, DOWNHILL = range(28, 35)
-LEAST_PUSH, LEAST_RUB, COS_SHIFT, SIN_SHIFT = range(35, 39)
+OMEGA, PSI0, PLATE_Z, PLATE_VZ, PLATE_VX, PLATE_AX = range(17, 23)
+STIFFNESS, DAMPING, EXPONENT, FRICTION, STATIC_FRICTION, GRAVITY, DOWNHILL = range(23, 30)
+LEAST_PUSH, LEAST_RUB, COS_SHIFT, SIN_SHIFT = range(30, 34)
 # The numbers of the plate's harmonics, as many as in the packed parameters.
-WAVES = 39
+WAVES = 34
 
 NO_WAVES = 2  # length of Kind.waves without harmonics: the orders 0 and 1
 
@@ -45,8 +45,7 @@ class Kind(NamedTuple):
     method: int  # the code of one of METHODS
     single: bool  # whether there is one trajectory only
     alike: bool  # whether all plates have the same Shapes
-    tilted: bool  # whether there are inclinations or phase shifts
-    sticks: bool  # whether there are static frictions larger than the friction
+    sticks: bool  # whether there are static frictions larger than the friction; without, sweeps take 1.2 times as long
     has_powers: bool  # whether there are exponents other than 1 and 1.5
     waves: tuple[int, ...]  # for each order from 0 to the highest, the first row of its harmonic in the memory, or 0
 
@@ -61,9 +60,7 @@ def sine_and_cosine_by(method, phase):
 def shapes_at(kind, memory, lane, phase):
     """The Shapes of a plate at a phase (rad)."""
     sine, cosine = sine_and_cosine_by(kind.method, phase)
-    along = sine, cosine
-    if kind.tilted:
-        along = plate.add_phases(sine, cosine, memory[place(SIN_SHIFT, lane)], memory[place(COS_SHIFT, lane)])
+    along = plate.add_phases(sine, cosine, memory[place(SIN_SHIFT, lane)], memory[place(COS_SHIFT, lane)])
     shapes = plate.shapes(sine, cosine, *along)
     if len(kind.waves) == NO_WAVES:
         return shapes
@@ -103,30 +100,11 @@ def written_shapes(shapes, at, stride):
 
 
 @compiled_inline
-def write_shapes(memory, lane, shapes):
-    """Write Shapes into the memory."""
-    for k in range(4):
-        memory[place(SHAPES + k, lane)] = shapes[k]
-
-
-@compiled_inline
-def shapes_in_memory(memory, lane):
-    """The Shapes in the memory."""
-    return written_shapes(memory, place(SHAPES, lane), np.uint64(LANES))
-
-
-@compiled_inline
-def forces(kind, memory, lane, vx, z, vz, shapes, is_raised):
-    """Gap (m), F_c/m, F_r/m (m/s², Eqs. 7, 11 and 12) and slip velocity (m/s) of a state.
-
-    is_raised : whether POWER holds δ^p
-    """
+def forces(kind, memory, lane, vx, z, vz, shapes):
+    """Gap (m), F_c/m, F_r/m (m/s², Eqs. 7, 11 and 12) and slip velocity (m/s) of a state."""
     gap = z - memory[place(PLATE_Z, lane)] * shapes.z
     exponent = memory[place(EXPONENT, lane)]
-    if is_raised:
-        power = memory[place(POWER, lane)]
-    else:
-        power = power_of_depth(-gap, exponent) if kind.has_powers else simple_power(-gap, exponent)
+    power = power_of_depth(-gap, exponent) if kind.has_powers else simple_power(-gap, exponent)
     push = contact_acceleration(
         gap,
         memory[place(PLATE_VZ, lane)] * shapes.vz - vz,
@@ -157,7 +135,7 @@ def stick(memory, lane, gap, push, rub, slip, shapes):
 def find_forces(kind, memory, lane, shapes):
     """Write GAP, PUSH and RUB of the present state. Returns whether the gap has opened or closed."""
     vx, z, vz = memory[place(VX, lane)], memory[place(Z, lane)], memory[place(VZ, lane)]
-    gap, push, rub, slip = forces(kind, memory, lane, vx, z, vz, shapes, kind.has_powers)
+    gap, push, rub, slip = forces(kind, memory, lane, vx, z, vz, shapes)
     if kind.sticks:
         rub = stick(memory, lane, gap, push, rub, slip, shapes)
     memory[place(GAP, lane)], memory[place(PUSH, lane)], memory[place(RUB, lane)] = gap, push, rub
@@ -183,11 +161,11 @@ def rk4_step(kind, memory, lane, state, gravity, downhill, shapes, step):
     half = 0.5 * step
     _, middle, end = shapes
     vx2, vz2 = vx1 + half * (rub1 - downhill), vz1 + half * (push1 - gravity)
-    _, push2, rub2, _ = forces(kind, memory, lane, vx2, z + half * vz1, vz2, middle, False)
+    _, push2, rub2, _ = forces(kind, memory, lane, vx2, z + half * vz1, vz2, middle)
     vx3, vz3 = vx1 + half * (rub2 - downhill), vz1 + half * (push2 - gravity)
-    _, push3, rub3, _ = forces(kind, memory, lane, vx3, z + half * vz2, vz3, middle, False)
+    _, push3, rub3, _ = forces(kind, memory, lane, vx3, z + half * vz2, vz3, middle)
     vx4, vz4 = vx1 + step * (rub3 - downhill), vz1 + step * (push3 - gravity)
-    _, push4, rub4, _ = forces(kind, memory, lane, vx4, z + step * vz3, vz4, end, False)
+    _, push4, rub4, _ = forces(kind, memory, lane, vx4, z + step * vz3, vz4, end)
     return (
         x + step / 6.0 * (vx1 + 2.0 * (vx2 + vx3) + vx4),
         vx1 + step / 6.0 * (rub1 + 2.0 * (rub2 + rub3) + rub4) - step * downhill,
@@ -200,7 +178,7 @@ def rk4_step(kind, memory, lane, state, gravity, downhill, shapes, step):
 def take_step(kind, memory, lane, shapes, step):
     """Advance a state by one step (s), with the forces in memory; `shapes` are those of `turn_plate`."""
     x, vx, z, vz = memory[place(X, lane)], memory[place(VX, lane)], memory[place(Z, lane)], memory[place(VZ, lane)]
-    gravity, downhill = memory[place(GRAVITY, lane)], memory[place(DOWNHILL, lane)] if kind.tilted else 0.0
+    gravity, downhill = memory[place(GRAVITY, lane)], memory[place(DOWNHILL, lane)]
     if kind.method == RK4:
         x, vx, z, vz = rk4_step(kind, memory, lane, (x, vx, z, vz), gravity, downhill, shapes, step)
     else:
