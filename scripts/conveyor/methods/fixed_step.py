@@ -6,8 +6,8 @@ negative, as in Eqs. 7 and 11, unless the model's `tension` excludes it. The pub
 where static_friction exceeds friction, a part whose slip has vanished or changed its sign since the last step gets the
 plate's velocity while |ẍ_s + g sin α| ≤ μ_s F_c/m.
 
-Time is the step number times the step and does not drift. For the exponents 1 and 1.5 explicit Euler calls no library
-function, so that every machine gives the same digits. `scheme` has the steps, `fixed_step_lanes` the loops over them,
+Time is the step number times the step and does not drift. For the exponents 1 and 1.5 no library function is called, so
+that every machine gives the same digits. `scheme` has the steps, `fixed_step_lanes` the loops over them,
 `recording` what they leave behind.
 """
 

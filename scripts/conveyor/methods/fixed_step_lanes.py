@@ -20,7 +20,6 @@ from .scheme import (
     COS_SHIFT,
     DAMPING,
     DOWNHILL,
-    EULER,
     EVALUATIONS,
     EXPONENT,
     FRICTION,
@@ -37,6 +36,7 @@ from .scheme import (
     PLATE_VZ,
     PLATE_Z,
     PSI0,
+    RK4,
     SIN_SHIFT,
     STATIC_FRICTION,
     STIFFNESS,
@@ -47,11 +47,11 @@ from .scheme import (
     count_step,
     find_forces,
     shapes_at,
-    sine_and_cosine_by,
     take_step,
     turn_plate,
     written_shapes,
 )
+from .sine import sine_and_cosine
 
 FIRST_WAVE = len(PARAMETERS)  # place of the first harmonic in packed parameters
 CHECK = 256  # steps between checks that the state is finite
@@ -59,7 +59,7 @@ CHECK = 256  # steps between checks that the state is finite
 
 @compiled_inline
 def turn_plates(kind, memory, i, step, shapes):
-    """Write the Shapes for CHECK steps of explicit Euler from number i on, for alike plates.
+    """Write the Shapes at the ends of CHECK steps from number i on, for alike plates.
 
     In this loop, LLVM computes the sines of several steps at once. That halves the time of a single trajectory.
     """
@@ -78,7 +78,7 @@ def take_steps(kind, lanes, memory, i, stop, step, plates):
     """
     changed = False
     while not changed and i != stop:
-        if kind.alike and kind.method == EULER:
+        if kind.alike and kind.method != RK4:
             end = written_shapes(plates, np.uint64(i % CHECK), np.uint64(CHECK))
             shapes = end, end, end
         elif kind.alike:
@@ -97,10 +97,9 @@ def take_steps(kind, lanes, memory, i, stop, step, plates):
 @compiled_inline
 def prepare(kind, parameters, flat, memory, lane):
     """Set a lane of the memory, zero before, to the initial condition of a packed parameter vector."""
-    method = kind.method
-    sine_angle, cosine_angle = sine_and_cosine_by(method, parameters[model.ANGLE])
-    sine_track, cosine_track = sine_and_cosine_by(method, parameters[model.INCLINATION])
-    ahead, straight = sine_and_cosine_by(method, parameters[model.PHASE_SHIFT])
+    sine_angle, cosine_angle = sine_and_cosine(parameters[model.ANGLE])
+    sine_track, cosine_track = sine_and_cosine(parameters[model.INCLINATION])
+    ahead, straight = sine_and_cosine(parameters[model.PHASE_SHIFT])
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     a_z, a_x = parameters[model.ACCELERATION] * sine_angle, parameters[model.ACCELERATION] * cosine_angle
     memory[OMEGA, lane], memory[PSI0, lane] = omega, parameters[model.PSI0]
@@ -158,7 +157,7 @@ def compiled_for(kind):
                     is_end = i == n_steps
                     if record_results(parameters, first, memory, running, results, step, evaluations, is_end) == 0:
                         break
-                    if kind.alike and method == EULER:
+                    if kind.alike and method != RK4:
                         turn_plates(kind, flat, i, step, plates)
                 record_events(kind, first, flat, memory, running, events, i * step)
                 stop = min(n_steps, i - i % CHECK + CHECK)
