@@ -1,5 +1,6 @@
 """A project that is built once from a small config, and copies of it for tests that change something."""
 
+import fcntl
 import os
 import shutil
 
@@ -13,11 +14,16 @@ def pytest_configure() -> None:
 
 
 @pytest.fixture(scope="session")
-def built(tmp_path_factory) -> Project:
-    """A built project; tests must not change its sources or results."""
-    project = Project(copy_project(tmp_path_factory.mktemp("built")))
-    project.make_in_process("all", "docs/companion.html")
-    return project
+def built(tmp_path_factory, worker_id) -> Project:
+    """A built project; tests must not change its sources or results. One worker builds it, and each has a copy."""
+    own = tmp_path_factory.getbasetemp()
+    first = (own if worker_id == "master" else own.parent) / "first_build"
+    with open(f"{first}.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not first.exists():
+            first.mkdir()
+            Project(copy_project(first)).make_in_process("all", "docs/companion.html")
+    return Project(shutil.copytree(first, own / "built", symlinks=True))
 
 
 @pytest.fixture

@@ -40,7 +40,7 @@ def test_benchmark_reaches_its_goals():
 def compared(request):
     """Work and precision of the solver and of two peers, and the settings."""
     settings = {
-        "duration": 1.0,
+        "duration": 0.4,
         "model": CONFIG["model"] | SCENES[request.param],
         "max_evaluations": CONFIG["precision"]["max_evaluations"],
     }

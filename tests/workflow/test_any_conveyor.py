@@ -8,6 +8,8 @@ import pytest
 import yaml
 from project import IN_PROCESS_OPTIONS, IN_PROCESS_PLUGIN, ROOT, Project
 
+pytestmark = pytest.mark.long
+
 MOST = 2  # builds at a time
 
 FEW = {"acceleration": {"num": 6}}

@@ -11,7 +11,7 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from project import FIGURES, Project
+from project import FIGURES, IN_PROCESS_OPTIONS, Project
 
 from pipeline import fields
 
@@ -20,7 +20,7 @@ from pipeline import fields
 def archive(built, tmp_path_factory):
     """The archive of the small project, moved elsewhere."""
     project = Project(shutil.copytree(built.folder, tmp_path_factory.mktemp("project") / "copy", symlinks=True))
-    project.make("archive")
+    project.make_in_process("archive")
     return shutil.copytree(project.folder / "archive/paper", tmp_path_factory.mktemp("alone") / "archive")
 
 
@@ -70,7 +70,7 @@ def test_a_figure_that_differs_is_named(copy):
 
 def test_a_large_archive_is_refused(built, tmp_path):
     project = Project(shutil.copytree(built.folder, tmp_path / "copy", symlinks=True), {"archive": {"megabytes": 0.5}})
-    run = project.snakemake("archive")
+    run = project.snakemake(*IN_PROCESS_OPTIONS, "archive")
     assert run.returncode == 1
     assert "MB, more than archive.megabytes = 0.5; largest files" in run.stdout
     assert not (project.folder / "archive/paper").exists()

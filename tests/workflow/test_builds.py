@@ -44,9 +44,12 @@ def made(project):
     return {name: content for name, content in contents.items() if not name.startswith(aside)}
 
 
+@pytest.mark.long
 def test_two_builds_differ_only_in_files_that_the_manifest_names(builds):
     first, second = map(made, builds)
     assert set(first) == set(second)
+    digests = [json.loads((project.folder / PROVENANCE).read_text())["config_sha256"] for project in builds]
+    assert digests[0] == digests[1]
     lines = first[MANIFEST].decode().splitlines()
     named = {line.removeprefix(MAY_DIFFER) for line in lines if line.startswith(MAY_DIFFER)}
     assert named == {"results/budget_times.parquet", "figures/scene_budget.pdf", "figures/scene_budget.png"}
@@ -55,10 +58,10 @@ def test_two_builds_differ_only_in_files_that_the_manifest_names(builds):
     assert different <= named
 
 
-def test_the_manifest_lists_all_files_except_pages_and_intermediate_tables(builds):
-    project = builds[0]
-    listed = {line.split()[-1] for line in (project.folder / MANIFEST).read_text().splitlines()[3:]}
-    assert set(made(project)) - listed == {
+def test_the_manifest_lists_all_files_except_pages_and_intermediate_tables(built):
+    lines = (built.folder / MANIFEST).read_text().splitlines()
+    listed = {line.split()[-1] for line in lines if not line.startswith("#")}
+    assert set(made(built)) - listed == {
         MANIFEST,
         "docs/companion.html",
         "results/attractors/strobes.parquet",
@@ -66,12 +69,12 @@ def test_the_manifest_lists_all_files_except_pages_and_intermediate_tables(build
         "results/shards/amplitudes_euler/0.parquet",
         "results/shards/on_plate/0.parquet",
     }
-    assert listed <= set(made(project))
+    assert listed <= set(made(built))
 
 
-def test_a_changed_result_is_found_with_the_manifest(builds, tmp_path):
+def test_a_changed_result_is_found_with_the_manifest(copied):
     """As the page "Compare two builds" describes."""
-    folder = shutil.copytree(builds[0].folder, tmp_path / "copy", symlinks=True)
+    folder = copied.folder
     check = ["sha256sum", "--quiet", "--check", MANIFEST]
     subprocess.run(check, cwd=folder, check=True)
     with (folder / "figures/fig08.pdf").open("ab") as file:
@@ -81,17 +84,15 @@ def test_a_changed_result_is_found_with_the_manifest(builds, tmp_path):
     assert run.stdout == "figures/fig08.pdf: FAILED\n"
 
 
-def test_provenance_is_complete_and_reruns_nothing(builds):
-    recorded = json.loads((builds[1].folder / PROVENANCE).read_text())
+def test_provenance_is_complete_and_reruns_nothing(built):
+    recorded = json.loads((built.folder / PROVENANCE).read_text())
     assert recorded["commit"] == recorded["clean"] == "unknown"
     assert len(recorded["config_sha256"]) == 64
-    assert recorded["config_sha256"] == json.loads((builds[0].folder / PROVENANCE).read_text())["config_sha256"]
     assert recorded["threads"] == 1
-    assert recorded["costs"]["figures"]["seconds"] > 0.0
+    assert recorded["costs"]["figures"]["jobs"] > 0
     names = {one.split("==")[0] for one in recorded["versions"]}
     assert {"python", "numpy", "numba", "matplotlib", "python-flint", "pymoo", "snakemake"} <= names
-    for project in builds:
-        assert project.planned("all") == {}
+    assert built.planned("all") == {}
 
 
 def test_costs_are_sums_over_the_benchmark_files_of_a_kind(tmp_path):
@@ -130,8 +131,9 @@ def test_the_commit_belongs_to_the_sources(tmp_path):
     assert provenance.sources(archive) == {"commit": "unknown", "clean": "unknown"}
 
 
-def test_the_report_of_snakemake_shows_each_figure_with_its_caption(builds):
-    project = builds[0]
+@pytest.mark.long
+def test_the_report_of_snakemake_shows_each_figure_with_its_caption(copied):
+    project = copied
     project.make("--report", "report.html")
     report = (project.folder / "report.html").read_text(encoding="utf-8")
     captions = list((project.folder / "results/captions").glob("*.rst"))

@@ -31,7 +31,7 @@ def test_a_closed_terminal_leaves_no_lock_and_no_process(built, end):
     assert process.returncode == 1
     with pytest.raises(ProcessLookupError):
         os.killpg(process.pid, 0)
-    project.make(target)
+    project.make_in_process(target)
 
 
 def test_a_killed_run_continues_after_unlock(built):
@@ -40,4 +40,4 @@ def test_a_killed_run_continues_after_unlock(built):
     assert run.returncode != 0
     assert "--unlock" in run.stdout
     assert project.snakemake("--unlock").returncode == 0
-    project.make(target, "--rerun-incomplete")
+    project.make_in_process(target, "--rerun-incomplete")

@@ -157,6 +157,20 @@ def test_checks_of_the_config_rerun_nothing():
     assert not {"pydantic", "pydantic_core", "yaml", "snakemake", "workflow"} & set(packages)
 
 
+@pytest.mark.parametrize(
+    ("module", "users"),
+    [
+        ("solver/contact.py", {"sweeps/shards", "orbits/estimates"}),
+        ("analysis/chaos/lyapunov.py", {"sweeps/shards"}),
+        ("analysis/attractors/labels.py", {"sweeps/shards"}),
+        ("analysis/chaos/pairs.py", {"orbits/estimates"}),
+    ],
+)
+def test_an_analysis_reruns_only_what_uses_it(module, users):
+    """Labels need exponents; estimates from pairs of trajectories need no labels."""
+    assert {stage for stage in ("sweeps/shards", "orbits/estimates") if f"conveyor/{module}" in modules(stage)} == users
+
+
 def test_plots_depend_on_no_solver():
     for figure in ("fig03", "fig22"):
         assert modules("draw", f"figures/plots/{figure}") == {
