@@ -36,12 +36,11 @@ def test_benchmark_reaches_its_goals():
     assert "miss a goal at the default tolerance: A (1 of" in benchmark.report(template, slow, 1)
 
 
-@pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
-def compared(request):
-    """Work and precision of the solver and of two peers, and the settings."""
+def compare(scene: str, duration: float, threads: int) -> pd.DataFrame:
+    """Work and precision of the solver and of two peers, with the settings and the times as attributes."""
     settings = {
-        "duration": 0.4,
-        "model": CONFIG["model"] | SCENES[request.param],
+        "duration": duration,
+        "model": CONFIG["model"] | SCENES[scene],
         "max_evaluations": CONFIG["precision"]["max_evaluations"],
     }
     with pytest.MonkeyPatch.context() as patch:
@@ -49,12 +48,20 @@ def compared(request):
         patch.setattr(precision, "STEPS", (5e-7,))
         patch.setattr(precision, "PEERS", {"modes": {"DOP853": (1e-4, 1e-13), "heyoka": (1e-10,)}})
         patch.setattr(precision, "SECONDS", 0.02)
-        first = precision.make(settings, 1)["precision"]
-        tables = precision.make(settings, 2)
+        tables = precision.make(settings, threads)
     table = pd.DataFrame(tables["precision"])
-    pd.testing.assert_frame_equal(table, pd.DataFrame(first), check_exact=True)
     table.attrs = settings | {"times": pd.DataFrame(tables["precision_times"])}
     return table
+
+
+@pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
+def compared(request):
+    return compare(request.param, duration=1.0, threads=2)
+
+
+def test_the_table_does_not_depend_on_threads():
+    one, two = (compare("jumping", duration=0.1, threads=threads) for threads in (1, 2))
+    pd.testing.assert_frame_equal(one, two, check_exact=True)
 
 
 def test_solver_and_an_independent_integration_agree(compared):

@@ -11,7 +11,7 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from project import FIGURES, IN_PROCESS_OPTIONS, Project
+from project import FIGURES, Project
 
 from pipeline import fields
 
@@ -70,7 +70,7 @@ def test_a_figure_that_differs_is_named(copy):
 
 def test_a_large_archive_is_refused(built, tmp_path):
     project = Project(shutil.copytree(built.folder, tmp_path / "copy", symlinks=True), {"archive": {"megabytes": 0.5}})
-    run = project.snakemake(*IN_PROCESS_OPTIONS, "archive")
+    run = project.snakemake("archive")
     assert run.returncode == 1
     assert "MB, more than archive.megabytes = 0.5; largest files" in run.stdout
     assert not (project.folder / "archive/paper").exists()

@@ -50,7 +50,9 @@ class Executor(RealExecutor):
                 Path(job.benchmark).write_text("s\tmax_rss\n0.0\t0.0\n")
                 if script.name == "draw.py" and "QUICK_FIGURES" in os.environ:
                     importlib.import_module("figures.style").save = save_quickly
-                given = SimpleNamespace(rule=job.rule.name, **{name: getattr(job, name) for name in GIVEN})
+                given = SimpleNamespace(
+                    rule=job.rule.name, scriptdir=str(script.parent), **{name: getattr(job, name) for name in GIVEN}
+                )
                 runpy.run_path(str(script), {"snakemake": given}, "__main__")
         except BaseException:
             self.print_job_error(info)
