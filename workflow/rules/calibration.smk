@@ -114,7 +114,8 @@ rule calibration_study:
         "../../scripts/make.py"
 
 
-# The paper's numbers as data. These jobs start first, because they wait for each other.
+# The paper's numbers as data. These jobs start first, because they wait for each other. Their priority is above that of two jobs of
+# `precision` together, which would begin beside each other on a cold cache and compile the same functions.
 rule identification_edges:
     output:
         **tables_of("identification/edges"),
@@ -122,7 +123,7 @@ rule identification_edges:
         log_file("identification/edges"),
     benchmark:
         benchmark_file("identification/edges")
-    priority: 3
+    priority: 5
     threads: THREADS
     params:
         **stage("calibration.edges", "identification/edges"),
@@ -147,7 +148,7 @@ rule identification_posterior:
         log_file("identification/posterior"),
     benchmark:
         benchmark_file("identification/posterior")
-    priority: 3
+    priority: 5
     params:
         **stage("calibration.paper_posterior", "identification/numbers"),
     message:
