@@ -116,49 +116,41 @@ def sweeps(config: dict, defaults: dict) -> Iterator[str]:
                 )
 
 
-def runs_with_step(config: dict) -> Iterator[tuple[str, float, float, float]]:
-    """The runs with a fixed step: the key of the step, the step (s), the duration (s), the frequency (Hz)."""
+def steps(config: dict, defaults: dict) -> Iterator[str]:
     for section in METHOD_SECTIONS:
         for name, entry in config[section].items():
             key = f"{section}.{name}.step" if "step" in entry else f"solver.step (of {section}.{name})"
             for variant in variants(name, entry).values():
                 filled = fill_defaults(config, section, variant)
                 for frequency in values_of(filled, "frequency") if "step" in filled else ():
-                    yield key, filled["step"], filled["duration"], frequency
+                    yield from faults_of_step(key, filled["step"], filled["duration"], frequency)
 
 
-def steps(config: dict, defaults: dict) -> Iterator[str]:
-    for key, step, duration, frequency in runs_with_step(config):
-        given = f"{key} = {step!r} s"
-        largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
-        whole = max(1, round(duration / step))
-        if step > duration:
-            yield f"{given} is longer than its duration of {duration!r} s; take less"
-        elif step > largest * (1.0 + 1e-9):
-            remedy = f"take at most {largest:g} s, 1/{STEPS_IN_A_CYCLE} of a cycle"
-            yield f"{given} is too long for {frequency:g} Hz; {remedy}"
-        elif duration / step > MOST_STEPS:
-            remedy = f"take at least {duration / MOST_STEPS:g} s"
-            yield f"{given} makes {duration / step:.0e} steps of {duration!r} s; {remedy}"
-        elif abs(duration / step - whole) > 1e-9 * whole:
-            remedy = f"take {duration / whole:.12g}, or another duration"
-            yield f"{given} does not divide its duration of {duration:.10g} s; {remedy}"
-
-
-def perturbed_runs(config: dict) -> Iterator[tuple[str, str, float, list]]:
-    """All perturbed runs: the key, the perturbed parameter, the size of the perturbation, the parameter's values."""
-    for name, entry in config["estimates"].items():
-        values = values_of(resolve(config, "estimates", name), entry["perturb"])
-        yield f"estimates.{name}", entry["perturb"], entry["epsilon"], values
+def faults_of_step(key: str, step: float, duration: float, frequency: float) -> Iterator[str]:
+    given = f"{key} = {step!r} s"
+    largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
+    whole = max(1, round(duration / step))
+    if step > duration:
+        yield f"{given} is longer than its duration of {duration!r} s; take less"
+    elif step > largest * (1.0 + 1e-9):
+        yield f"{given} is too long for {frequency:g} Hz; take at most {largest:g} s, 1/{STEPS_IN_A_CYCLE} of a cycle"
+    elif duration / step > MOST_STEPS:
+        least = f"{duration / MOST_STEPS:g} s"
+        yield f"{given} makes {duration / step:.0e} steps of {duration!r} s; take at least {least}"
+    elif abs(duration / step - whole) > 1e-9 * whole:
+        remedy = f"take {duration / whole:.12g}, or another duration"
+        yield f"{given} does not divide its duration of {duration:.10g} s; {remedy}"
 
 
 def perturbations(config: dict, defaults: dict) -> Iterator[str]:
-    for key, perturb, epsilon, values in perturbed_runs(config):
+    for name, entry in config["estimates"].items():
+        perturb, epsilon = entry["perturb"], entry["epsilon"]
+        values = values_of(resolve(config, "estimates", name), perturb)
         if "conveyor" in values:
             remedy = "give z0 a height in m, or perturb another parameter"
-            yield f"{key}.perturb = {perturb!r} has no effect because z0 is the word conveyor; {remedy}"
+            yield f"estimates.{name}.perturb = {perturb!r} has no effect because z0 is the word conveyor; {remedy}"
         elif any(abs(value + epsilon - value - epsilon) > 0.5 * epsilon for value in values):
-            yield f"{key}.epsilon = {epsilon!r} is lost in the rounding of {perturb}; give a larger one"
+            yield f"estimates.{name}.epsilon = {epsilon!r} is lost in the rounding of {perturb}; give a larger one"
 
 
 def critical(config: dict, defaults: dict) -> Iterator[str]:
