@@ -111,6 +111,7 @@ def stage(module, reference=None, scripts=lambda wildcards: ()):
     def code(wildcards):
         return source_hash("make", module.format(**wildcards).replace(".", "/"), *scripts(wildcards))
 
+    # Not a function of the output: Snakemake does not rerun jobs after a change of params that depend on inputs or outputs.
     def settings(wildcards):
         return settings_of_table(reference.format(**wildcards))
 
