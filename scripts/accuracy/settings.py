@@ -3,26 +3,22 @@
 from operator import itemgetter
 from typing import Annotated
 
-from pydantic import AfterValidator, Field
+from pydantic import Field
 from typing_extensions import TypedDict
 
 from ..pipeline.settings import (
-    MODEL_TYPES,
     MOST_POINTS,
     Acceleration,
     Duration,
-    Height,
     Line,
     Name,
     Reference,
     Seed,
     Step,
     Tolerance,
-    check_span,
     many,
     mapping,
     number,
-    span,
     whole,
 )
 from ..pipeline.table_settings import FOLLOWED, model_of, with_model
@@ -41,28 +37,23 @@ class Precision(TypedDict):
     repeats: Repeats
 
 
-class Ride(TypedDict):
-    start: Acceleration
-    stop: Acceleration
-    num: whole("number of amplitudes", 1, MOST_POINTS)
-    z0: Height
-    duration: Duration
-
-
-class Stability(TypedDict):
-    step: span(Step, "time steps")
-    stiffness: span(MODEL_TYPES["stiffness"], "contact stiffnesses")
-    damping: span(MODEL_TYPES["damping"], "contact damping coefficients")
-    impact_velocity: span(number("impact velocity", "m/s", gt=0, le=100), "impact velocities")
-    conveyor: Annotated[Ride, AfterValidator(check_span), Field(description="the paper's conveyor without chaos")]
-
-
-BUDGETED = ("sweeps", "signals", "spectra", "estimates", "critical", "impacts", "dimensions", "attractors", "lyapunov")
-Points = whole("number of points", 1, MOST_POINTS)
+# Points of a table of each section that are compared with a more accurate solution.
+BUDGETED = {
+    "sweeps": 400,
+    "signals": 10,
+    "spectra": 10,
+    "estimates": 60,
+    "critical": 10,
+    "impacts": 400,
+    "dimensions": 8,
+    "attractors": 60,
+    "lyapunov": 20,
+}
+Effort = number("factor of the numbers of points; below 1: a coarse table", ge=0.01, le=100)
 
 
 class SceneBudget(TypedDict):
-    points: mapping("points of each table that are compared", dict.fromkeys(BUDGETED, Points))
+    effort: Effort
     reasons: Annotated[dict[Reference, Line], Field(description="why a table is more accurate than its figure needs")]
 
 
@@ -82,7 +73,7 @@ class SettlingTimes(TypedDict):
 SECTIONS = {
     "benchmark": mapping("speed and error of the solver and of the paper's method", {"repeats": Repeats}),
     "precision": Annotated[Precision, Field(description="error against cost of all methods")],
-    "stability": Annotated[Stability, Field(description="limits of stability of the methods")],
+    "stability": mapping("limits of stability of the methods", {"effort": Effort}),
     "scene_budget": Annotated[SceneBudget, Field(description="accuracy that each figure needs")],
     "map_check": Annotated[MapCheck, Field(description="check of state maps by brute force")],
     "settling_times": Annotated[SettlingTimes, Field(description="time until a motion settles")],
@@ -106,6 +97,12 @@ def reference_settings(config: dict) -> dict:
     return {"duration": config["precision"]["duration"], "model": {**config["model"], **SCENES["jumping"]}}
 
 
+def budget_settings(config: dict) -> dict:
+    own = config["scene_budget"]
+    points = {section: max(1, round(own["effort"] * count)) for section, count in BUDGETED.items()}
+    return {"points": points, "reasons": own["reasons"]}
+
+
 def benchmark_settings(config: dict) -> dict:
     return {**config["benchmark"], "tolerance": config["solver"]["tolerance"], "model": model_of(config)}
 
@@ -116,8 +113,7 @@ TABLE_SETTINGS = {
     "results/reference_check": reference_settings,
     "results/stability": itemgetter("stability"),
     "results/stability_estimates": lambda config: {"model": model_of(config)},
-    "results/scene_budget": itemgetter("scene_budget"),
-    "results/budget_times": itemgetter("scene_budget"),
+    **dict.fromkeys(("results/scene_budget", "results/budget_times"), budget_settings),
     "results/theory": lambda config: {"model": model_of(config)},
     "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),

@@ -34,8 +34,15 @@ TABLES = {
 }
 
 RIGHT, WRONG, GROWS, BLOWS_UP = "right", "wrong state", "energy grows", "blow-up"
-# Varied quantities besides the step, and the spacing of their values.
-PANELS = {"stiffness": np.geomspace, "damping": np.geomspace, "impact velocity": np.geomspace, "conveyor": np.linspace}
+# Varied quantities besides the step: spacing, least and largest value, and number of values.
+PANELS = {
+    "stiffness": (np.geomspace, 1.0e3, 1.0e7, 13),  # N/m
+    "damping": (np.geomspace, 0.03, 10.0, 13),  # N s/m
+    "impact velocity": (np.geomspace, 0.01, 3.0, 25),  # m/s, of a Hertz contact
+    "conveyor": (np.linspace, 20.0, 50.0, 16),  # m/s², amplitudes of the paper's conveyor without chaos
+}
+STEPS = (2.0e-7, 3.0e-3, 43)  # s; least and largest step, and number of steps
+HEIGHT, DURATION = 0.3e-3, 0.5  # m, s: initial height and duration of the runs of the paper's conveyor
 # Linear contact where stiffness (N/m) or damping (N s/m) is not varied: p = 1, for which a theory exists.
 CONTACT = {"stiffness": 1.0e5, "damping": 0.3}
 TRUTH = 1e-13  # tolerance of the solver as the reference
@@ -205,20 +212,22 @@ def rest_experiment(panel: str, method: str, value: float) -> Experiment:
     return lambda step: outcome_of_impact(method, step, value, conveyor), theory
 
 
-def panel_values(panel: str, settings: dict) -> np.ndarray:
+def panel_values(panel: str, effort: float) -> np.ndarray:
     """The values of the varied quantity of a panel."""
-    return PANELS[panel](*(settings[panel.replace(" ", "_")][name] for name in ("start", "stop", "num")))
+    spacing, least, largest, count = PANELS[panel]
+    return spacing(least, largest, max(2, round(effort * count)))
 
 
-def region_rows(settings: dict, progress: str | None) -> list[dict]:
+def region_rows(effort: float, progress: str | None) -> list[dict]:
     """Outcomes over the step and one other quantity."""
-    steps = np.geomspace(**settings["step"])
+    least, largest, count = STEPS
+    steps = np.geomspace(least, largest, max(2, round(effort * count)))
     lines = []
     for panel in PANELS:
-        values = panel_values(panel, settings)
+        values = panel_values(panel, effort)
         for method in FIXED_STEP_METHODS:
             if panel == "conveyor":
-                found = conveyor_experiments(method, values, settings[panel]["z0"], settings[panel]["duration"])
+                found = conveyor_experiments(method, values, HEIGHT, DURATION)
             else:
                 found = [rest_experiment(panel, method, value) for value in values]
             lines += [(panel, method, value, *one) for value, one in zip(values, found, strict=True)]
@@ -228,14 +237,14 @@ def region_rows(settings: dict, progress: str | None) -> list[dict]:
     return rows
 
 
-def outcome_of_solver(panel: str, value: float, settings: dict) -> str:
+def outcome_of_solver(panel: str, value: float) -> str:
     """Outcome of the solver at its default tolerance, with the criteria for methods with a step."""
     if panel != "conveyor":
         outcome, _ = rest_experiment(panel, "event", value)
         return outcome(math.nan)
-    ride, conveyor = settings[panel], Conveyor(acceleration=value)
+    conveyor = Conveyor(acceleration=value)
     run, truth = (
-        simulate(conveyor, Start(ride["z0"]), duration=ride["duration"], tolerance=tolerance)
+        simulate(conveyor, Start(HEIGHT), duration=DURATION, tolerance=tolerance)
         for tolerance in (DEFAULT_TOLERANCE, TRUTH)
     )
     error = abs(run.mean_velocity() - truth.mean_velocity())
@@ -248,8 +257,8 @@ def row(panel: str, method: str, x: float, y: float, outcome: str, theory: float
 
 def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of stability."""
-    rows = region_rows(settings, progress)
+    rows = region_rows(settings["effort"], progress)
     for panel in PANELS:
-        for value in panel_values(panel, settings):
-            rows.append(row(panel, "event", math.nan, value, outcome_of_solver(panel, value, settings)))
+        for value in panel_values(panel, settings["effort"]):
+            rows.append(row(panel, "event", math.nan, value, outcome_of_solver(panel, value)))
     return fields.columns(rows, TABLES["stability"])

@@ -44,6 +44,14 @@ WRONG = [
         {"theory": {"speed": [1.0]}},
         "theory is no setting any more; remove it (its value is a constant in scripts/accuracy",
     ),
+    (
+        {"scene_budget": {"points": {"sweeps": 1}}},
+        "scene_budget.points is no setting any more; give scene_budget.effort",
+    ),
+    (
+        {"stability": {"step": {"num": 9}}},
+        "stability.step is no setting any more; remove it (its value is a constant in",
+    ),
     ({"stability": {"chatter_steps": [1e-6]}}, "stability.chatter_steps is no setting any more"),
     ({"companion": {"cycles": 500}}, "companion.cycles is no setting any more, because what used it is gone"),
     ({"scaling": {"points": [1000]}}, "scaling is no setting any more, because what used it is gone"),

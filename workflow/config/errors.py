@@ -34,7 +34,7 @@ CONSTANTS = {
     "accuracy/scenes": {"precision": "scenes", "": "published_scenes"},
     "accuracy/settling_times": {"settling_times": "z0"},
     "accuracy/speed": {"figures.NAME.settings": "paper_step equal_error"},
-    "accuracy/stability": {"stability": "contact"},
+    "accuracy/stability": {"stability": "contact step stiffness damping impact_velocity conveyor"},
     "accuracy/stability_estimates": {"": "stability_estimates"},
     "accuracy/theory": {"": "theory"},
     "calibration/edges": {"identification": "contacts heights edges"},
@@ -92,6 +92,7 @@ GONE = (
 )
 # Settings with a new name.
 RENAMED = {
+    "scene_budget.points": "scene_budget.effort, a factor of all numbers of points",
     "dimensions.NAME.begin": "solver.settling, in excitation cycles",
 }
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}

@@ -8,7 +8,7 @@ settings only as long as it has its own records, which neither an archive nor a 
 import itertools
 
 from scripts.accuracy.scenes import SCENES
-from scripts.accuracy.settings import precision_settings
+from scripts.accuracy.settings import BUDGETED, precision_settings
 from scripts.pipeline.table_settings import model_of
 
 from .entries import ENTRIES, TIGHTER, resolve
@@ -64,7 +64,7 @@ def budgeted_tables(config: dict) -> dict[str, list[str]]:
 
     def is_budgeted(reference: str) -> bool:
         is_converged = entry_of(config, reference).get("method", "event") == "event"
-        is_covered = reference.split("/")[0] in config["scene_budget"]["points"]
+        is_covered = reference.split("/")[0] in BUDGETED
         return is_covered and is_converged and reference != "lyapunov/witnesses"
 
     return {

@@ -2,9 +2,9 @@
 
 import pandas as pd
 
-from accuracy.stability import PANELS, VELOCITY
+from accuracy.stability import HEIGHT, PANELS, VELOCITY
 
 
 def numbers(*, stability: pd.DataFrame) -> dict:
     own = stability[(stability.method == "event") & stability.panel.isin(PANELS)]
-    return {"accuracy": VELOCITY, "own_right": own.outcome == "right"}
+    return {"height": HEIGHT, "accuracy": VELOCITY, "own_right": own.outcome == "right"}
