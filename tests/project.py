@@ -1,6 +1,7 @@
 """A copy of the project on a small config, and Snakemake run in it."""
 
 import atexit
+import copy
 import json
 import os
 import re
@@ -37,7 +38,13 @@ CONFIG_FILES = ("config", *STAGES)
 
 def read_config(*files: str) -> dict:
     """The merged default config, or the merged config of some files."""
-    return merged(*(yaml.safe_load((ROOT / f"config/{file}.yaml").read_text()) for file in files or CONFIG_FILES))
+    return copy.deepcopy(merged(*map(content_of, files or CONFIG_FILES)))
+
+
+@cache
+def content_of(file: str) -> dict:
+    """The content of a config file, read once: many tests read all of them."""
+    return yaml.safe_load((ROOT / f"config/{file}.yaml").read_text())
 
 
 def small_config() -> dict:

@@ -4,7 +4,7 @@ import re
 import subprocess
 
 import pytest
-from project import ROOT, call_snakemake, copy_project
+from project import IN_PROCESS_OPTIONS, ROOT, call_snakemake, copy_project
 
 MODULE = """
 module conveyor:
@@ -53,7 +53,7 @@ def test_files_of_the_repository_are_not_made_again_from_elsewhere(tmp_path, fil
 def test_the_workflow_is_a_module(tmp_path):
     (tmp_path / "Snakefile").write_text(MODULE.format(snakefile=ROOT / "Snakefile"))
     (tmp_path / "config.yaml").write_text(CONFIG)
-    snakemake(tmp_path, "--configfile", "config.yaml")
+    snakemake(tmp_path, *IN_PROCESS_OPTIONS, "--configfile", "config.yaml")
     assert (tmp_path / "figures/mine/fig01.pdf").is_file()
     assert (tmp_path / "results/mine/sweeps/few.parquet").is_file()
 

@@ -10,8 +10,8 @@ TARGET, LOG = "results/{prefix}/estimates/phase.parquet", "results/{prefix}/logs
 
 
 def ended(built, prefix, end):
-    """A project with a running job, its target, and the process of Snakemake."""
-    # Long enough that the job still runs when it is interrupted.
+    """A project whose job was interrupted, its target, and the process of Snakemake."""
+    # So long that the job still runs when it is interrupted; the project that is returned has a short one.
     project = built.under({"prefix": prefix, "estimates": {"phase": {"duration": 20.0}}})
     target = TARGET.format(prefix=prefix)
     process = project.started(target, *project.configfile())
@@ -22,7 +22,7 @@ def ended(built, prefix, end):
     end(process.pid)
     # Wait until neither Snakemake nor its jobs can write any more.
     process.communicate(timeout=60)
-    return project, target, process
+    return built.under({"prefix": prefix}), target, process
 
 
 @pytest.mark.parametrize("end", [os.kill, os.killpg], ids=["Snakemake", "all of the terminal"])
