@@ -173,5 +173,7 @@ TABLE_SETTINGS = {
     **dict.fromkeys(("operating/advice", "operating/changes"), itemgetter("advice")),
     "operating/throws": partial(box_settings, "throws"),
     "operating/track": partial(box_settings, "track"),
-    **dict.fromkeys(("operating/drive_front", "operating/drive_generations"), drive_settings),
+    **dict.fromkeys(
+        ("operating/drive_front", "operating/drive_generations", "operating/second_harmonic"), drive_settings
+    ),
 }

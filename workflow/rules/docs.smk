@@ -22,6 +22,7 @@ PAGES = {
     "identification": tables_of(
         *(f"identification/{name}" for name in ("numbers", "fits", "intervals", "samples", "frictions"))
     ),
+    "second_harmonic": tables_of("operating/second_harmonic"),
     "tables": {},
 }
 # The tables behind the facts, by their roles in scripts/docs/facts.py.

@@ -161,3 +161,20 @@ rule drive_page:
         "The recommended settings of the drive in words"
     script:
         "../../scripts/make.py"
+
+
+# Only an explicit target makes this table, because its searches take long.
+rule second_harmonic:
+    output:
+        **tables_of("operating/second_harmonic"),
+    log:
+        log_file("operating/second_harmonic"),
+    benchmark:
+        benchmark_file("operating/second_harmonic")
+    threads: THREADS
+    params:
+        **stage("operating.second_harmonic", "operating/second_harmonic"),
+    message:
+        "The fastest drives with and without a second harmonic"
+    script:
+        "../../scripts/make.py"
