@@ -9,13 +9,13 @@ from pipeline.templates import render
 def compare(drives: pd.DataFrame) -> dict:
     """Both kinds of drives at one peak acceleration: the best velocity of each, the gain and its uncertainty.
 
-    The uncertainty is the largest relative difference between searches of one kind. A kind of which some search has no
-    drive within the constraints cannot be compared, so that the gain is None.
+    The uncertainty is the largest relative difference between searches of one kind. Kinds are compared if each has two
+    searches with a drive within the constraints, else the gain is None.
     """
     within = drives[drives.within]
     kinds = {kind: within[within.kind == kind].velocity_05 for kind in KINDS}
     row = {"peak": drives.peak_acceleration.iloc[0], "kinds": kinds, "gain": None}
-    if drives.within.all():
+    if all(len(velocity) >= 2 for velocity in kinds.values()):
         row["gain"] = kinds[WITH_HARMONIC].max() / kinds[PURE].max() - 1.0
         row["uncertainty"] = max(velocity.max() / velocity.min() - 1.0 for velocity in kinds.values())
     return row
@@ -34,6 +34,7 @@ def make(template: str, second_harmonic: pd.DataFrame) -> str:
         .sort_values("peak_acceleration")
         .to_dict("records"),
         "seeds": second_harmonic.seed.nunique(),
+        "unconfirmed": int((~second_harmonic.within).sum()),
         "unsettled": int((~second_harmonic.settled).sum()),
         "searches": len(second_harmonic),
         "settled": SETTLED,

@@ -69,6 +69,15 @@ def test_drives_beyond_a_constraint_are_not_compared(monkeypatch):
     assert page.splitlines()[2].startswith("Not known: ") and "| none | none | not known | not known |" in page
 
 
+def test_a_search_without_a_confirmed_drive_does_not_count(monkeypatch):
+    table = searched(monkeypatch, 0.2)
+    table.loc[table.index[0], ["within", "velocity_05"]] = False, 9.0
+    page = page_of(table)
+    assert page.splitlines()[2].startswith("Yes, ") and "In 1 of 12 searches, none of these keeps" in page
+    table.loc[table.index[1], "within"] = False
+    assert "| not known | not known |" in page_of(table)
+
+
 def test_a_search_that_still_grows_is_pointed_out(monkeypatch):
     table = searched(monkeypatch, 0.2)
     unsettled = table.assign(settled=table.seed != 2)
