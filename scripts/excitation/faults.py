@@ -33,6 +33,8 @@ CHECKED_ORDERS = 8
 LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
 MOST_DISPLACEMENT = 0.1  # m
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
+# Amplitude up to which a file may be in g. Beside a larger one, 1 m/s² is an offset of the sensor, not gravity in g.
+MOST_IN_G = 15.0
 GRAVITY = 0.03  # relative deviation within which an offset counts as gravity
 MOST_TILT = 0.2  # share of gravity normal to the track, below which the sensor cannot stand as stated
 MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
@@ -124,7 +126,9 @@ def unit_faults(acceleration: float, frequency: float, offsets: np.ndarray, unit
         )
     elif frequency > MOST_FREQUENCY:
         yield f"{shown}, at {frequency:.5g} Hz; no conveyor does: write the time in s (multiply minutes by 60)"
-    elif abs(gravity / UNITS[unit] * UNITS[other] / STANDARD_GRAVITY - 1.0) < GRAVITY:
+    elif (unit == "g" or given < MOST_IN_G) and abs(
+        gravity / UNITS[unit] * UNITS[other] / STANDARD_GRAVITY - 1.0
+    ) < GRAVITY:
         remedy = "set excitation.unit: g" if other == "g" else "leave excitation.unit out"
         yield f"shows gravity as {gravity / UNITS[unit]:.3g}, so its values are in {other}; {remedy}"
     elif abs(gravity / STANDARD_GRAVITY - 1.0) < GRAVITY and abs(offsets[1]) < MOST_TILT * gravity:

@@ -181,6 +181,7 @@ def test_the_largest_share_is_the_models():
         # The mean interval with its gap would be too long for eight samples in a cycle, and for the fifth harmonic.
         {"gap": (0.2, 0.7), "cycles": 80.0, "rate": 650.0, "harmonics": ((5, 0.2, 0.0, 0.2, 1.0),)},
         {"offsets": (1.0, 9.8), "mount": 1.2},
+        {"offsets": (0.0, 1.0)},
         {"acceleration": 4.0, "noise": 1.0, "colour": 0.95, "cycles": 200.0, "rate": 1000.0},
         {"also": {77.0: 0.5}},
         {"also": {2.0: 5.0}},
