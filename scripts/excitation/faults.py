@@ -47,7 +47,7 @@ SHARE, OUT_OF_NOISE, NEARBY, FOOT = 0.05, 40.0, 20, 2.0
 MOST_SUBHARMONIC = 4  # the fundamental may be weaker than its harmonics up to this order
 NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does not vibrate
 # A clipped signal stays at its extreme value far longer than near it.
-NEAR, SPIKE, PLATEAU, FLAT = 0.002, 4.0, 3.0, 0.03
+NEAR, SPIKE, PLATEAU, FLAT, LEAST_FLAT = 0.002, 4.0, 3.0, 0.01, 20
 
 
 def first_clipped(values: np.ndarray, quantum: float) -> int | None:
@@ -58,7 +58,7 @@ def first_clipped(values: np.ndarray, quantum: float) -> int | None:
     count, plateaus = np.count_nonzero(at), np.count_nonzero(np.diff(at.astype(np.int8), prepend=0) == 1)
     # Samples of every cycle at the same phases repeat an extreme value, too, but then all values repeat.
     is_varied = len(np.unique(values[~at])) > 0.5 * len(values)
-    is_flat = count >= PLATEAU * plateaus or (is_varied and count >= FLAT * len(values))
+    is_flat = count >= PLATEAU * plateaus or (is_varied and count >= max(LEAST_FLAT, FLAT * len(values)))
     return int(np.argmax(at)) if plateaus > 1 and is_flat and count > SPIKE * near else None
 
 

@@ -138,7 +138,7 @@ def test_bad_signals_are_rejected_with_a_remedy(name):
     assert message in "".join(faults_of(drive.text(), drive.unit))
 
 
-@pytest.mark.parametrize(("limit", "noise"), [(15.0, 0.3), (30.0, 0.3), (36.5, 0.1), (30.0, 0.0)])
+@pytest.mark.parametrize(("limit", "noise"), [(15.0, 0.3), (30.0, 0.3), (36.5, 0.1), (30.0, 0.0), (39.0, 1.0)])
 @pytest.mark.parametrize("mount", [0.0, 0.2])
 def test_clipped_signals_are_rejected_with_their_first_line(limit, noise, mount):
     drive = replace(DRIVE, limit=limit, noise=noise, mount=mount)
