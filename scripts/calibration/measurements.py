@@ -137,9 +137,10 @@ def check_value(name: str, text: str, interval: tuple[float, float]) -> tuple[fl
 
 
 def plate_velocity(measured: Measurement, model: Mapping[str, Any]) -> float:
-    """Largest velocity of the plate along the track (m/s)."""
+    """Bound of the velocity of the plate along the track (m/s)."""
     own = {**model, **measured.changed}
-    return measured.acceleration * math.cos(own.get("angle", 0.0)) / (2.0 * math.pi * own["frequency"])
+    shape = 1.0 + sum(harmonic["along"] / harmonic["order"] for harmonic in own.get("harmonics", ()))
+    return measured.acceleration * math.cos(own.get("angle", 0.0)) / (2.0 * math.pi * own["frequency"]) * shape
 
 
 def largest_velocity(measured: Measurement, model: Mapping[str, Any]) -> float:

@@ -141,6 +141,14 @@ def test_a_byte_order_mark_and_windows_lines_are_no_fault(tmp_path):
     assert len(parse(read_text(file), file, SETTINGS, RANGES)) == 3
 
 
+def test_harmonics_make_the_plate_faster():
+    text = f"{HEAD}\n80,0.6\n80,0.6\n80,0.6\n"
+    with pytest.raises(MeasurementError, match="impossible"):
+        parse(text, "mine.csv", SETTINGS, RANGES)
+    second = {"order": 2, "along": 1.2, "along_phase": 0.5, "normal": 0.0, "normal_phase": 0.0}
+    parse(text, "mine.csv", SETTINGS | {"model": MODEL | {"harmonics": [second]}}, RANGES)
+
+
 def test_parts_that_slide_down_a_steep_track_may_be_faster_than_the_plate():
     steep = SETTINGS | {"model": MODEL | {"inclination": -0.3}}
     assert len(parse(f"{HEAD}\n30,0.9\n40,0.9\n50,0.9\n", "mine.csv", steep, RANGES)) == 3
