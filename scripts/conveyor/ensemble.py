@@ -45,12 +45,9 @@ def follow_by_events(parameters, durations, tolerance, feeding):
 
 def follow_by_steps(parameters, duration, step, method, feeding):
     """The columns of `sweep`, each of shape (n,), for `parameters`, shape (n, 16), with a fixed-step method."""
-    runs = fixed_step.run_all(parameters, duration, step, method)
-    fields = {"z_end": "z", "vz_end": "vz", "x_end": "x", "vx_end": "vx"}
-    columns = {name: np.array([getattr(run, fields.get(name, name)) for run in runs]) for name in COLUMNS}
-    if not feeding:
-        columns |= dict.fromkeys(HORIZONTAL, np.nan)
-    return columns | {"status": np.array([STATUS.index(run.status) for run in runs])}
+    columns = fixed_step.run(parameters, duration, step, method)
+    del columns["evaluations"]
+    return columns if feeding else columns | dict.fromkeys(HORIZONTAL, np.nan)
 
 
 def sweep(

@@ -159,16 +159,15 @@ def simulate(
             results.tolist()
         )
         (x_last, *_), (x_end, vx_end, z_end, vz_end, *_) = samples.tolist()
-        status = STATUS[int(code)]
         contact_fraction = contact_time / duration
     else:
-        summary = fixed_step.run(parameters, duration, step, method)
-        x_end, vx_end, z_end, vz_end = summary.x, summary.vx, summary.z, summary.vz
-        x_last = x_end - summary.mean_velocity * LAST * duration
-        status, impacts, max_gap = summary.status, summary.impacts, summary.max_gap
-        contact_fraction, work, repeats, event_count = summary.contact_fraction, summary.evaluations, 0, 0
-        impact_speed, peak_force = summary.impact_speed, summary.peak_force
-    if status != STATUS[OK]:
+        run = {name: column.item() for name, column in fixed_step.run(parameters[None], duration, step, method).items()}
+        x_end, vx_end, z_end, vz_end = run["x_end"], run["vx_end"], run["z_end"], run["vz_end"]
+        x_last = x_end - run["mean_velocity"] * LAST * duration
+        code, impacts, work, repeats, event_count = run["status"], run["impacts"], run["evaluations"], 0, 0
+        max_gap, contact_fraction = run["max_gap"], run["contact_fraction"]
+        impact_speed, peak_force = run["impact_speed"], run["peak_force"]
+    if code != OK:
         max_gap = contact_fraction = math.nan
     return Run(
         conveyor=conveyor,
@@ -178,7 +177,7 @@ def simulate(
         tolerance=tolerance,
         step=step,
         reuse=reuse,
-        status=status,
+        status=STATUS[int(code)],
         x_last=float(x_last),
         z_end=float(z_end),
         vz_end=float(vz_end),

@@ -12,7 +12,6 @@ that every machine gives the same digits. `scheme` has the steps, `fixed_step_la
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -23,31 +22,28 @@ from ..parameters import LAST
 from ..solver.contact_lanes import new_memory
 from ..solver.record import SAMPLES, name_events
 from ..solver.status import OK
-from ..solver.status import STATUS as STATUS_NAMES
 from .fixed_step_lanes import FIRST_WAVE, compiled_for, kind_of
-from .scheme import EVENTS, RESULTS, WAVES
+from .scheme import (
+    CONTACT_TIME,
+    EVENTS,
+    FORCE_EVALUATIONS,
+    IMPACT_SPEED,
+    IMPACTS,
+    MAX_GAP,
+    PEAK_FORCE,
+    RESULTS,
+    STATUS,
+    VX,
+    VZ,
+    WAVES,
+    X,
+    Z,
+)
 
 # The factor of a step h on a decay exp(λt), as coefficients of the powers of hλ; None for a step without such a factor.
 GROWTH = {"euler": (1.0, 1.0), "semi_implicit_euler": None, "rk4": (1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0)}
 LIKELY_EVENTS = 1000  # of a run; a run with more events is repeated, with room for all of them
 WHOLE = 1e-9  # relative distance from a whole number of steps that counts as rounding of duration and step
-
-
-class Summary(NamedTuple):
-    """The result of a run: its last state, and totals over the run."""
-
-    x: float  # m
-    vx: float  # m/s
-    z: float  # m
-    vz: float  # m/s
-    mean_velocity: float  # m/s, over the last part of the run
-    impacts: int
-    contact_fraction: float  # share of the run with a contact force
-    max_gap: float  # m
-    impact_speed: float  # m/s, largest speed of approach over the last part of the run
-    peak_force: float  # N, largest contact force over the last part of the run
-    evaluations: int  # of the force
-    status: str  # one of status.STATUS
 
 
 def step_count(duration: float, step: float) -> int:
@@ -76,7 +72,7 @@ def follow(parameters, step, n_steps, method, indices=(), n_events=0):
 
     Returns
     -------
-    results : n lists of RESULTS numbers: x (m), vx (m/s), z (m), vz (m/s) at the last step; number of events; impacts;
+    results : float64, shape (n, RESULTS): x (m), vx (m/s), z (m), vz (m/s) at the last step; number of events; impacts;
         time with contact force (s); largest gap (m) at the steps; number of force evaluations; status; largest speed of
         approach at an impact (m/s) and largest contact force (N) since the last sample
     samples : float64, shape (n, k, 6), x, vx, z, vz (m, m/s), contact and friction force (N); NaN behind the check that
@@ -92,16 +88,11 @@ def follow(parameters, step, n_steps, method, indices=(), n_events=0):
     integrate = compiled_for(kind_of(METHODS.index(method), parameters))
     memory = new_memory(WAVES + parameters.shape[1] - FIRST_WAVE)
     integrate(parameters, float(step), n_steps, indices, samples, events, results, memory)
-    return results.tolist(), samples, events
+    return results, samples, events
 
 
-def run(parameters: np.ndarray, duration: float, step: float, method: str = "euler") -> Summary:
-    """Integrate one trajectory from t = 0, packed as by `model.pack`, shape (16,); the rest as in `run_all`."""
-    return run_all(parameters[np.newaxis], duration, step, method)[0]
-
-
-def run_all(parameters: np.ndarray, duration: float, step: float, method: str = "euler") -> list[Summary]:
-    """Integrate trajectories from t = 0; together they take less time than one by one, with the same bits.
+def run(parameters: np.ndarray, duration: float, step: float, method: str = "euler") -> dict[str, np.ndarray]:
+    """Integrate n trajectories from t = 0; together they take less time than one by one, with the same bits.
 
     ValueError for a duration or step outside (0, LONGEST], a duration that is no whole number of steps, or an unknown
     method.
@@ -112,19 +103,30 @@ def run_all(parameters: np.ndarray, duration: float, step: float, method: str = 
     duration : s, a whole number of steps
     step : Δt, s
     method : one of METHODS
+
+    Returns
+    -------
+    the columns of `ensemble.sweep`, shape (n,), with the code of the status, and evaluations, the number of evaluations
+    of the forces
     """
     n_steps = step_count(duration, step)
     first = min(round((1.0 - LAST) * n_steps), n_steps - 1)
     results, samples, _ = follow(parameters, step, n_steps, method, [first])
-    found = []
-    for result, (sample_of_last,) in zip(results, samples.tolist(), strict=True):
-        x, vx, z, vz, _, impacts, contact_time, max_gap, evaluations, status, *peaks = result
-        mean_velocity = (x - sample_of_last[0]) / ((n_steps - first) * step)
-        contact_fraction = contact_time / (n_steps * step)
-        peaks = peaks if status == OK else (math.nan, math.nan)
-        counts = int(impacts), contact_fraction, max_gap, *peaks, int(evaluations)
-        found.append(Summary(x, vx, z, vz, mean_velocity, *counts, STATUS_NAMES[int(status)]))
-    return found
+    failed = results[:, STATUS] != OK
+    return {
+        "mean_velocity": (results[:, X] - samples[:, 0, X]) / ((n_steps - first) * step),
+        "x_end": results[:, X],
+        "vx_end": results[:, VX],
+        "z_end": results[:, Z],
+        "vz_end": results[:, VZ],
+        "max_gap": results[:, MAX_GAP],
+        "impacts": results[:, IMPACTS],
+        "contact_fraction": results[:, CONTACT_TIME] / (n_steps * step),
+        "impact_speed": np.where(failed, math.nan, results[:, IMPACT_SPEED]),
+        "peak_force": np.where(failed, math.nan, results[:, PEAK_FORCE]),
+        "status": results[:, STATUS],
+        "evaluations": results[:, FORCE_EVALUATIONS],
+    }
 
 
 def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str = "euler") -> dict[str, np.ndarray]:

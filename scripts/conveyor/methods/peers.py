@@ -40,7 +40,7 @@ BESIDE_OF_HEYOKA = 1e-13
 SMALLEST_SCALE = 1e-6
 
 
-class Summary(NamedTuple):
+class PeerRun(NamedTuple):
     """The result of a run; NaN if it did not reach the end."""
 
     x: float  # m
@@ -129,7 +129,7 @@ def run(
     tolerance: float,
     max_evaluations: int,
     times: Sequence[float] = (),
-) -> Summary:
+) -> PeerRun:
     """Integrate one trajectory from t = 0.
 
     ValueError for an unknown integrator or treatment.
@@ -153,8 +153,8 @@ def run(
     parameters = as_rows(parameters)
     trajectory = Trajectory(parameters, integrator, max_evaluations, np.asarray(times, dtype=np.float64))
 
-    def lost(status: int, evaluations: int) -> Summary:
-        return Summary(*(math.nan,) * 5, evaluations, STATUS[status], np.full((len(times), 4), math.nan), np.empty(0))
+    def lost(status: int, evaluations: int) -> PeerRun:
+        return PeerRun(*(math.nan,) * 5, evaluations, STATUS[status], np.full((len(times), 4), math.nan), np.empty(0))
 
     if installed_version(integrator) is None:
         return lost(NOT_INSTALLED, 0)
@@ -172,4 +172,4 @@ def run(
     x, vx, z, vz = map(float, after)
     mean_velocity = (x - float(before[0])) / (LAST * duration)
     samples, events = np.array(trajectory.samples).reshape(-1, 4), np.array(trajectory.events)
-    return Summary(x, vx, z, vz, mean_velocity, trajectory.evaluations, STATUS[OK], samples, events)
+    return PeerRun(x, vx, z, vz, mean_velocity, trajectory.evaluations, STATUS[OK], samples, events)

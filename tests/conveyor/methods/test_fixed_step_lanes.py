@@ -37,7 +37,7 @@ def follow(parameters, step=STEP, n_steps=5000, indices=INDICES, n_events=20, me
     """Samples, events and results of trajectories; NaN where nothing was written."""
     method = fixed_step.METHODS[method]
     results, samples, events = fixed_step.follow(parameters, step, n_steps, method, indices, n_events)
-    return samples, events, np.array(results)
+    return samples, events, results
 
 
 def bits(found):
