@@ -93,8 +93,8 @@ def test_settings_differ_as_much_as_they_can():
     assert drive.spread(objectives[:0], 5).tolist() == []
 
 
-@pytest.fixture
-def made(monkeypatch) -> dict[str, pd.DataFrame]:
+@pytest.fixture(scope="module")
+def made() -> dict[str, pd.DataFrame]:
     """A search whose outcomes are closed forms: velocity and impact speed grow with the amplitude and the angle.
 
     With all parts, half of them move back above 60 m/s².
@@ -109,8 +109,9 @@ def made(monkeypatch) -> dict[str, pd.DataFrame]:
         found |= {"back": np.where(full & (x[:, 0] > 60.0), 0.5, 0.0)}
         return pd.DataFrame(found | {"displacement": drive.displacement(x)})
 
-    monkeypatch.setattr(drive, "evaluate", evaluate)
-    tables = drive.make({**SETTINGS, "population": 40, "generations": 40})
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(drive, "evaluate", evaluate)
+        tables = drive.make({**SETTINGS, "population": 40, "generations": 40})
     tables["drive_front"].attrs = SETTINGS
     return tables
 

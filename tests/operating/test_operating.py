@@ -299,10 +299,11 @@ def made_up(amplitudes, settings, **options):
 SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "resolution": 0.2, "starts": 100}
 
 
-@pytest.fixture
-def refined(monkeypatch) -> pd.DataFrame:
-    monkeypatch.setattr(shares, "shares_at", made_up)
-    found = shares.make(SETTINGS)["shares"]
+@pytest.fixture(scope="module")
+def refined() -> pd.DataFrame:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(shares, "shares_at", made_up)
+        found = shares.make(SETTINGS)["shares"]
     found.attrs = SETTINGS | {
         "model": {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0, "frequency": 50.0}
     }
