@@ -49,8 +49,8 @@ TOLERANCE = 1e-13
 CLOSE = 1e-9  # largest difference of a repeated state, in units of the plate's motion
 REPEATS = 64  # excitation cycles in a row that must repeat in a periodic motion
 SIGNIFICANT = 3.0  # standard errors by which a positive exponent must exceed zero
-# Largest accepted share of different labels, which a reader of a map does not see (scene_budget.pixels). It was set
-# before the number was known.
+# Largest accepted share of different labels, which a reader of a map does not see (PIXELS in scene_budget.py). It was
+# set before the number was known.
 ACCEPTED = 0.01
 BLOCK = 256  # cycles per call of the solver
 EXPONENT = {"transient": 0, "cycles": 100, "blocks": 20}  # cycles in each block, and blocks, for the exponent

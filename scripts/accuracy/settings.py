@@ -8,7 +8,6 @@ from typing_extensions import TypedDict
 
 from ..pipeline.settings import (
     MOST_POINTS,
-    Acceleration,
     Duration,
     Line,
     Name,
@@ -64,8 +63,7 @@ class MapCheck(TypedDict):
 
 
 class SettlingTimes(TypedDict):
-    acceleration: many(Acceleration, "amplitudes of the excitation")
-    starts: whole("number of random initial conditions", 1, 10**6)
+    starts: whole("number of random initial conditions at each amplitude", 1, 10**6)
     cycles: Cycles
     seed: Seed
 

@@ -17,23 +17,25 @@ TABLES = {
     ),
 }
 
+# m/s²: regular motion, coexisting chaos, windows, chaos.
+AMPLITUDES = [40.0, 53.0, 57.0, 61.0, 62.9, 72.97, 73.0, 75.0, 80.0, 83.25]
 HEIGHTS = (0.0, 0.5e-3)  # m, range of the initial heights; phases are drawn from the whole cycle
 
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table of settling times, from the section of the config with model and tolerance."""
-    amplitudes, starts = settings["acceleration"], settings["starts"]
-    _, conveyors = grid.product({"acceleration": amplitudes}, settings["model"])
+    starts = settings["starts"]
+    _, conveyors = grid.product({"acceleration": AMPLITUDES}, settings["model"])
     parameters = np.repeat(conveyors, starts)
     # Random heights and phases, the same at every amplitude.
     generator = np.random.default_rng(settings["seed"])
-    parameters["z0"] = np.tile(generator.uniform(*HEIGHTS, starts), len(amplitudes))
-    parameters["psi0"] = np.tile(generator.uniform(0.0, 2.0 * math.pi, starts), len(amplitudes))
+    parameters["z0"] = np.tile(generator.uniform(*HEIGHTS, starts), len(AMPLITUDES))
+    parameters["psi0"] = np.tile(generator.uniform(0.0, 2.0 * math.pi, starts), len(AMPLITUDES))
     labels = classify(
         parameters, cycles=settings["cycles"], tolerance=settings["tolerance"], threads=threads, progress=progress
     )
     return {
-        "acceleration": np.repeat(amplitudes, starts),
+        "acceleration": np.repeat(AMPLITUDES, starts),
         "z0": parameters["z0"],
         "psi0": parameters["psi0"],
         "state": labels.state,

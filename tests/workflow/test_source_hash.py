@@ -197,6 +197,12 @@ def test_only_a_stage_itself_has_the_columns_of_its_tables(stage):
     assert users == {stage} | {user for user, used in CALLS.items() if stage in used}
 
 
+@pytest.mark.parametrize("stage", STAGES)
+def test_a_table_depends_on_the_values_of_its_settings_but_not_on_their_declarations(stage):
+    """Otherwise a new description or range of one setting would rerun all tables."""
+    assert [file for file in source_hash.closure(stage)[0] if file.name == "settings.py"] == []
+
+
 def test_the_library_knows_nothing_of_snakemake():
     for module in (source_hash.SCRIPTS / "conveyor").rglob("*.py"):
         _, imported = imports.direct_imports(module, source_hash.SCRIPTS)

@@ -32,7 +32,7 @@ CONSTANTS = {
     "accuracy/reference_check": {"precision": "reference"},
     "accuracy/scene_budget": {"scene_budget": "tolerances pixels line"},
     "accuracy/scenes": {"precision": "scenes", "": "published_scenes"},
-    "accuracy/settling_times": {"settling_times": "z0"},
+    "accuracy/settling_times": {"settling_times": "acceleration z0"},
     "accuracy/speed": {"figures.NAME.settings": "paper_step equal_error"},
     "accuracy/stability": {"stability": "contact step stiffness damping impact_velocity conveyor"},
     "accuracy/stability_estimates": {"": "stability_estimates"},
