@@ -138,7 +138,7 @@ def advance(c, series, state, phase, duration, tangent, features):
     """
     # Numbers of both perturbations lie side by side, so that one instruction works on both.
     expansions = np.zeros((SIZE, 3, tangent.shape[0])).T
-    features[:AIRBORNE] = 0.0
+    features[IMPACTS] = features[CONTACT_TIME] = features[DAMPER_TIME] = features[LONGEST_FLIGHT] = 0.0
     clock = pieces.clock_of(phase, 0)
     motion = vertical.motion_at(c, -state[0], -state[1], 0.0, phase)
     if motion.pulled:

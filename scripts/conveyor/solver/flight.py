@@ -9,7 +9,7 @@ import math
 from collections import namedtuple
 
 from . import plate
-from .jit import compiled, compiled_inline, compiled_into_callers
+from .jit import compiled, compiled_inline
 
 # A part stays below the plate's highest point for sqrt(a_z / g) / π cycles at most, which is a thousand within
 # parameters.RANGES, with about ten steps in each. A search of more steps has failed.
@@ -115,56 +115,16 @@ def next_impact(flight, q, rate, limit):
 def highest_gap(flight, duration):
     """Largest gap (m) of a Flight that takes `duration` (s).
 
-    It lies within an excitation cycle of the top of the parabola, because the plate passes its lowest point there.
-    """
-    _, vz, theta, c = flight
-    gravity, a_z, omega = c.gravity, c.a_z, c.omega
-    top = min(max(vz / gravity, 0.0), duration)
-    begin, end = max(top - TURN / omega, 0.0), min(top + TURN / omega, duration)
-    highest = max(gap(flight, begin)[0], gap(flight, end)[0])
-    if plate.has_harmonics(c):
-        return max(highest, highest_between(flight, begin, end))
-    # Around each lowest point of the plate, where q̈ < 0, the rate of the gap falls monotonically. A change of its sign
-    # there brackets a largest gap.
-    falling = math.pi if a_z <= gravity else math.acos(-gravity / a_z)  # half-width of a bracket, rad
-    lowest = math.ceil((theta + omega * begin - falling) / TURN)
-    while TURN * lowest - falling < theta + omega * end:
-        low = max((TURN * lowest - falling - theta) / omega, begin)
-        high = min((TURN * lowest + falling - theta) / omega, end)
-        lowest += 1
-        if not low < high:
-            continue
-        if gap(flight, low)[1] > 0.0 > gap(flight, high)[1]:
-            highest = max(highest, summit(flight, low, high))
-    return highest
-
-
-@compiled_into_callers
-def summit(flight, low, high):
-    """Largest gap (m) between two times of a flight by safeguarded Newton steps; the rate is positive at the first."""
-    tau = 0.5 * (low + high)
-    for _ in range(60):
-        q, rate = gap(flight, tau)
-        if rate > 0.0:
-            low = tau
-        else:
-            high = tau
-        # The gap is flat at its summit: a rate this small no longer changes its height.
-        if abs(rate) * (high - low) <= 1e-14 * q:
-            break
-        newton = tau + rate / fall(flight, tau)
-        tau = newton if low < newton < high else 0.5 * (low + high)
-    return q
-
-
-@compiled_into_callers
-def highest_between(flight, begin, end):
-    """Largest gap (m) at the roots of its rate between two times of a flight, none of which is passed.
-
-    With the bound on |d³q/dt³|, a step ends before the rate can have changed its sign. Near a root such steps converge
+    It lies within an excitation cycle of the top of the parabola, because the plate has each of its heights there. It
+    is at an end of this interval or at a root of the gap's rate. The search steps from root to root and passes none:
+    with the bound on |d³q/dt³|, a step ends before the rate can have changed its sign. Near a root such steps converge
     quadratically, and a shortest step then leaves it.
     """
-    jerk, shortest, highest, tau = flight.c.bounds.jerk, LEAVE / flight.c.omega, 0.0, begin
+    _, vz, _, c = flight
+    top, cycle = min(max(vz / c.gravity, 0.0), duration), TURN / c.omega
+    tau, end = max(top - cycle, 0.0), min(top + cycle, duration)
+    jerk, highest = c.bounds.jerk, gap(flight, end)[0]
+    shortest = max(LEAVE / c.omega, 2.0 * EPSILON * end)  # which is more than the distance of two floats
     while tau < end:
         q, rate = gap(flight, tau)
         highest = max(highest, q)

@@ -45,8 +45,8 @@ def roots() -> Iterator[Path]:
     yield Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "conveyor"
     shared = Path(tempfile.gettempdir()) / f"conveyor-{os.getuid()}"
     shared.mkdir(mode=0o700, exist_ok=True)
-    found = shared.lstat()
-    if stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o077:
+    status = shared.lstat()
+    if stat.S_ISDIR(status.st_mode) and status.st_uid == os.getuid() and not status.st_mode & 0o077:
         yield shared
     yield Path(tempfile.mkdtemp(prefix="conveyor-"))
 

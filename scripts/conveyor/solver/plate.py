@@ -208,14 +208,14 @@ def add_sums(shapes, sums):
 @compiled
 def sums_at(harmonics, phases):
     """The Sums, float64, shape (n, 6), of packed harmonics, shape (n, 5 h), at phases (rad), shape (n,)."""
-    found = np.empty((len(phases), 6))
+    sums_of_phases = np.empty((len(phases), 6))
     for i in range(len(phases)):
         sums, sine, cosine = NO_SUMS, math.sin(phases[i]), math.cos(phases[i])
         for h in range(0, harmonics.shape[1], NUMBERS):
             harmonic = numbers_at(harmonics[i], np.uint64(h), ONE)
             sums = add_harmonic(sums, harmonic, *multiple(int(harmonic[K]), sine, cosine))
-        copy(found[i], sums)
-    return found
+        copy(sums_of_phases[i], sums)
+    return sums_of_phases
 
 
 def largest_fall(harmonics: Sequence[float]) -> float:

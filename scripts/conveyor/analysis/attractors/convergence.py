@@ -43,7 +43,7 @@ class Trajectories(NamedTuple):
 
 
 def new_trajectories(n: int) -> Trajectories:
-    """n trajectories that have failed before their first cycle, to be replaced by what is found."""
+    """n trajectories that have failed before their first cycle, to be replaced when they end."""
     return Trajectories(
         np.full((n, 2), math.nan),
         np.full(n, FAILED),
@@ -141,16 +141,16 @@ def check_convergence(c, state, flight, max_cycles, attractors, rows, past, coun
     if n == BEFORE_FIRST_CYCLE:
         return GOES_ON, 0, math.nan
     scale_0, scale_1 = c.scale_w * c.scale_w, c.scale_v
-    found = find_period(state, past, n, scale_0, scale_1)
+    period = find_period(state, past, n, scale_0, scale_1)
     past[DELTA, n % PAST], past[V, n % PAST], past[FLIGHTS, n % PAST] = state[0], state[1], flight
-    counts[REPEATS] = counts[REPEATS] + 1 if found > 0 and found == counts[CANDIDATE] else 0
-    counts[CANDIDATE] = found
-    if found > 0 and counts[REPEATS] >= found:
-        for period in range(1, found + 1):
-            if found % period == 0 and distance_from_past(state, past, period, n, scale_0, scale_1) <= SAME:
-                found = period
+    counts[REPEATS] = counts[REPEATS] + 1 if period > 0 and period == counts[CANDIDATE] else 0
+    counts[CANDIDATE] = period
+    if period > 0 and counts[REPEATS] >= period:
+        for shorter in range(1, period):
+            if period % shorter == 0 and distance_from_past(state, past, shorter, n, scale_0, scale_1) <= SAME:
+                period = shorter
                 break
-        return PERIODIC, found, longest_flight(past, n + 1, found)
+        return PERIODIC, period, longest_flight(past, n + 1, period)
     counts[STAYED] = counts[STAYED] + 1 if is_in_chaotic_set(state, attractors.chaotic, rows[2], rows[3]) else 0
     if counts[STAYED] >= STAY:
         return IN_CHAOTIC_SET, 0, math.nan

@@ -69,9 +69,9 @@ def count_piece(piece, lane, steps, cycle):
 
 
 @compiled_into_callers
-def end_cycle(c, i, lane, motion, cycle, search, past, counts, found):
+def end_cycle(c, i, lane, motion, cycle, search, past, counts, ends):
     """Whether the search of trajectory i is over with the `motion` at the end of a cycle."""
-    state = found.states[i]
+    state = ends.states[i]
     state[0], state[1] = delta_and_v(motion)
     cycles = counts[FOLLOWED]
     if 0 <= cycles < search.strobes.shape[1]:
@@ -80,12 +80,12 @@ def end_cycle(c, i, lane, motion, cycle, search, past, counts, found):
     outcome, period, longest = convergence.check_convergence(
         c, state, flight, search.max_cycles, search.attractors, search.rows[i], past, counts
     )
-    found.followed[i] = counts[FOLLOWED]
+    ends.followed[i] = counts[FOLLOWED]
     if cycles == BEFORE_FIRST_CYCLE:
         cycle[AIRBORNE, lane] = 0.0
     if outcome == GOES_ON:
         return False
-    found.outcomes[i], found.periods[i], found.flights[i] = outcome, period, longest
+    ends.outcomes[i], ends.periods[i], ends.flights[i] = outcome, period, longest
     return True
 
 
@@ -103,18 +103,18 @@ def compiled_for(harmonics):
     """The compiled part of `follow_all_to_attractors` for plates with a number of harmonics."""
 
     @compiled
-    def follow(parameters, tolerance, search, found, side_by_side, work):
+    def follow(parameters, tolerance, search, ends, side_by_side, work):
         """Follow trajectories.
 
         Parameters
         ----------
         search : a Search
-        found : convergence.new_trajectories, filled
+        ends : convergence.new_trajectories, filled
         side_by_side : whether lanes take contact steps together; otherwise one trajectory follows the other
         work : the memory of contact_lanes, the state of each lane's cycle, shape (3, LANES), the trajectory of each
             lane, a contact.workspace, and history and counters of each lane's search
         """
-        parameters, search, found = no_refcount((parameters, search, found))
+        parameters, search, ends = no_refcount((parameters, search, ends))
         memory, steps, cycle, trajectories, series, histories, counters = no_refcount(work)
         constants = [contact.constants(parameters[0], tolerance)] * LANES
         waiting = running = 0
@@ -137,8 +137,8 @@ def compiled_for(harmonics):
                         count_piece(piece, lane, steps, cycle)
                         over = status != OK
                         if piece.end == TIME_LIMIT and not over:
-                            over = end_cycle(c, i, lane, motion, cycle, search, past, counts, found)
-                            motion = begin_cycle(c, found.states[i], lane, steps, cycle)
+                            over = end_cycle(c, i, lane, motion, cycle, search, past, counts, ends)
+                            motion = begin_cycle(c, ends.states[i], lane, steps, cycle)
                     if over:
                         waiting, running = contact_lanes.refill(lane, trajectories, waiting, running, len(parameters))
                         i = trajectories[lane]
@@ -175,7 +175,7 @@ def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows
     attractors, rows : an AttractorTable, and its `rows_of` the parameters, shape (n, 4)
     strobes : float64, shape (n, m, 2), filled with the states after each of the first m cycles
     """
-    found = convergence.new_trajectories(len(parameters))
+    ends = convergence.new_trajectories(len(parameters))
     if len(parameters) > 0:
         harmonics = (parameters.shape[1] - len(PARAMETERS)) // plate.NUMBERS
         strobes = np.empty((len(parameters), 0, 2)) if strobes is None else strobes
@@ -189,5 +189,5 @@ def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows
             np.empty((LANES, 4), np.int64),
         )
         follow = compiled_for(harmonics)
-        follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), found, side_by_side, work)
-    return found
+        follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), ends, side_by_side, work)
+    return ends
