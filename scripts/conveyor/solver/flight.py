@@ -127,10 +127,11 @@ def highest_gap(flight, duration):
     shortest = max(LEAVE / c.omega, 2.0 * EPSILON * end)  # which is more than the distance of two floats
     while tau < end:
         q, rate = gap(flight, tau)
-        highest = max(highest, q)
         # The rate's distance from zero, and how fast it shrinks.
         closing = math.copysign(fall(flight, tau), rate * fall(flight, tau))
         root = math.sqrt(closing * closing + 2.0 * jerk * abs(rate))
         advance = 2.0 * abs(rate) / (root + closing) if closing > 0.0 else (root - closing) / jerk
+        # While the bound on the rate, a concave function, falls to zero, the gap grows by half of this product or more.
+        highest = max(highest, q + max(0.5 * rate * min(advance, end - tau), 0.0))
         tau += max(advance, shortest)
     return highest
