@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from calibration import prediction
+from calibration import model_check, prediction
 from calibration.calibrate import calibrate
 from calibration.importance_sampling import Sample
 from calibration.inference import (
@@ -156,6 +156,21 @@ def test_alternatives_are_also_searched_in_one_round_if_the_search_without_them_
     settings = SETTINGS | {"rounds": 1, "alternatives": {"inclination": 0.2}}
     (row,) = compare_alternatives(found, data_of(measured(), MODEL), settings, threads=2)
     assert row["parameter"] == "inclination" and np.isfinite(row["log_bayes_factor"])
+
+
+@pytest.mark.parametrize(("gain", "preferred"), [(-4.0, False), (2.9, False), (3.1, True)])
+def test_an_alternative_is_preferred_from_a_bayes_factor_of_twenty_on(gain, preferred, monkeypatch):
+    """The logarithm of 20 is 3.0."""
+    points = np.repeat(bounds_of(SETTINGS).mean(axis=0)[None], 5, axis=0)
+    inclined = np.column_stack([points, np.full(5, 0.1)])
+    found, other = (
+        Sample(place, np.zeros(5), np.full(5, 0.2), evidence, 5.0, np.zeros(5, int))
+        for place, evidence in ((points, 7.0), (inclined, 7.0 + gain))
+    )
+    monkeypatch.setattr(model_check, "search", lambda *_, **__: other)
+    (row,) = compare_alternatives(found, data_of(measured(), MODEL), INCLINED)
+    assert row["preferred"] == preferred
+    assert (row["log_bayes_factor"], row["value"]) == pytest.approx((gain, 0.1))
 
 
 def test_a_parameter_that_the_measurements_state_is_no_alternative():
