@@ -131,14 +131,14 @@ def columns(model: dict, tolerance: float, repeats: int, *, progress: str | None
         for name, case in cases.items()
     }
     truth = np.array([truths[case["case"]] for case in rows])
-    found = [time_run(case, case["compared"], "event")[1].mean_velocity() for case in rows]
+    event = [time_run(case, case["compared"], "event")[1].mean_velocity() for case in rows]
     euler = [time_run(case, case["compared"], "euler")[1].mean_velocity() for case in rows]
     seconds, without, euler_seconds = measure_times(rows, repeats, progress)
     return {
         **pd.DataFrame(rows)[["case", "motion", "chosen", "tolerance", "duration", "compared"]],
         **pd.DataFrame([case["model"] for case in rows])[["acceleration", "z0"]],
         "mean_velocity": truth,
-        "error": np.abs(np.array(found) / truth - 1.0),
+        "error": np.abs(np.array(event) / truth - 1.0),
         "euler_error": np.abs(np.array(euler) / truth - 1.0),
         "steps": np.array([run.work for run in runs]),
         "repeated_steps": np.array([run.repeats for run in runs]),
@@ -154,9 +154,9 @@ def columns(model: dict, tolerance: float, repeats: int, *, progress: str | None
     }
 
 
-def report(template: str, found: dict[str, np.ndarray], repeats: int) -> str:
+def report(template: str, table: dict[str, np.ndarray], repeats: int) -> str:
     """The page on the benchmark, with the goals of each case."""
-    rows = [row | {"wanted": CASES[row["case"]]["wanted"]} for row in pd.DataFrame(found).to_dict("records")]
+    rows = [row | {"wanted": CASES[row["case"]]["wanted"]} for row in pd.DataFrame(table).to_dict("records")]
 
     def misses(row: dict) -> bool:
         return row["speed"] < row["wanted"]["speed"] or row["error"] > row["wanted"]["error"]

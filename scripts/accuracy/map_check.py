@@ -124,19 +124,19 @@ def longest_flight(row: np.ndarray, period: int, tolerance: float) -> float:
 
 def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
     """State, period, simulated cycles and exponent of each row of a table of parameters."""
-    found: list[Settled] = [None] * len(rows)
+    settled: list[Settled] = [None] * len(rows)
     flights = np.zeros(len(rows))
     ends = rows.copy()
 
     def work(begin, end):
         for k in range(begin, end):
-            found[k] = simulate_until_settled(rows[k], settings)
-            ends[k] = found[k].end
-            if found[k].period:
-                flights[k] = longest_flight(ends[k], found[k].period, TOLERANCE)
+            settled[k] = simulate_until_settled(rows[k], settings)
+            ends[k] = settled[k].end
+            if settled[k].period:
+                flights[k] = longest_flight(ends[k], settled[k].period, TOLERANCE)
 
     for_each_chunk(work, len(rows), threads=threads, chunk=1, progress=progress)
-    period = np.array([one.period for one in found])
+    period = np.array([one.period for one in settled])
     states = np.where(flights >= LONG_FLIGHT, "second", "first").astype(object)
     exponent, error = np.full((2, len(rows)), np.nan)
     open_rows = np.flatnonzero(period == 0)
@@ -148,7 +148,7 @@ def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress:
     return {
         "state": states,
         "period": period,
-        "cycles": np.array([one.cycles for one in found]),
+        "cycles": np.array([one.cycles for one in settled]),
         "exponent": exponent,
         "exponent_error": error,
     }

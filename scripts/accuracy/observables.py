@@ -33,20 +33,20 @@ class Shown(NamedTuple):
 
 def make_critical_heights(settings: dict) -> pd.DataFrame:
     """The critical heights among the heights at which the state changes."""
-    found = pd.DataFrame(critical.make(settings))
-    return found[found.is_critical]
+    table = pd.DataFrame(critical.make(settings))
+    return table[table.is_critical]
 
 
 def make_strobes(settings: dict) -> pd.DataFrame:
     """A table of strobes, sorted by value at each amplitude, because a diagram does not show their order."""
-    found = pd.DataFrame(strobes.make(settings | settings["axes"]))
-    return found.assign(v=found.groupby(["branch", "acceleration"]).v.transform(lambda v: np.sort(v.to_numpy())))
+    table = pd.DataFrame(strobes.make(settings | settings["axes"]))
+    return table.assign(v=table.groupby(["branch", "acceleration"]).v.transform(lambda v: np.sort(v.to_numpy())))
 
 
 def make_exponents(settings: dict) -> pd.DataFrame:
     """A table of Lyapunov exponents on the attractors of the same settings."""
-    found = pd.DataFrame(strobes.make(settings | settings["axes"]))
-    return pd.DataFrame(exponents.make(found, settings))
+    table = pd.DataFrame(strobes.make(settings | settings["axes"]))
+    return pd.DataFrame(exponents.make(table, settings))
 
 
 SHOWN = {
@@ -104,24 +104,24 @@ def observe_shifted(shown: Shown, settings: dict, shifts: Sequence[float]) -> li
 
 
 def visible_differences(
-    shown: Shown, truth: pd.DataFrame, found: pd.DataFrame, axes: dict, line: float
+    shown: Shown, truth: pd.DataFrame, other: pd.DataFrame, axes: dict, line: float
 ) -> pd.DataFrame:
     """Whether a reader can see the difference of each drawn value of two tables; rows as in `truth`.
 
     A reader sees the difference of two numbers if it is more than `line` times their range, the difference of unequal
-    texts, and a value that only one table has. A column without any value in `found` was not computed and does not
+    texts, and a value that only one table has. A column without any value in `other` was not computed and does not
     count.
     """
     keys = [*axes, *shown.keys]
     both = truth.set_index(keys)[list(shown.drawn)].join(
-        found.set_index(keys)[list(shown.drawn)].add_suffix(" found"), how="left"
+        other.set_index(keys)[list(shown.drawn)].add_suffix(" of other"), how="left"
     )
     visible = {}
     for name in shown.drawn:
-        here, there = both[name], both[f"{name} found"]
+        here, there = both[name], both[f"{name} of other"]
         if not pd.api.types.is_numeric_dtype(here):
             visible[name] = here.ne(there) & ~(here.isna() & there.isna())
-        elif found[name].notna().any():
+        elif other[name].notna().any():
             groups = here.groupby(level=list(axes)) if shown.each else here.groupby(lambda _: 0)
             extent = groups.transform("max") - groups.transform("min")
             visible[name] = ~((here.sub(there).abs() <= line * extent) | (here.isna() & there.isna()))

@@ -235,9 +235,9 @@ def make(settings: dict, repeats: int, *, progress: str | None = None) -> dict[s
         run_method(method, settings | SHORT)
     runs = [partial(run_method, method, settings) for method in listed]
     results, times = run_in_turns(runs, repeats=repeats, seconds=SECONDS, progress=progress)
-    run, found = pd.DataFrame(listed), pd.DataFrame(results)
+    run, columns = pd.DataFrame(listed), pd.DataFrame(results)
     state = find_state(settings, truth.end)
-    velocity_error = (found.mean_velocity / truth.mean_velocity - 1.0).abs()
+    velocity_error = (columns.mean_velocity / truth.mean_velocity - 1.0).abs()
     outcomes = [
         judge_run(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)
     ]
@@ -250,9 +250,9 @@ def make(settings: dict, repeats: int, *, progress: str | None = None) -> dict[s
     return {
         "precision": {
             **run,
-            "evaluations": found.evaluations,
-            "repeated_evaluations": found.repeated,
-            "mean_velocity": found.mean_velocity,
+            "evaluations": columns.evaluations,
+            "repeated_evaluations": columns.repeated,
+            "mean_velocity": columns.mean_velocity,
             "velocity_error": velocity_error,
             "state_error": [np.abs((result.end - truth.end) / scale).max() for result in results],
             "trajectory_error": trajectory_error,

@@ -39,14 +39,14 @@ def make(settings: dict) -> dict[str, np.ndarray]:
         for name, scale, column in zip(("x", "vx", "z", "vz"), scales, states.T, strict=True)
         for time, value, there in zip(times, column, own[name], strict=True)
     ]
-    found = contact_changes(run.events)
-    found = found[found <= times[-1]]
-    if len(found) != len(events):
+    own_events = contact_changes(run.events)
+    own_events = own_events[own_events <= times[-1]]
+    if len(own_events) != len(events):
         raise RuntimeError(
-            f"the multiprecision solution has {len(events)} impacts and separations, the solver {len(found)}; increase "
-            "the digits"
+            f"the multiprecision solution has {len(events)} impacts and separations, the solver {len(own_events)}; "
+            "increase the digits"
         )
-    differences = (found - events) * conveyor.frequency
+    differences = (own_events - events) * conveyor.frequency
     rows += [
         {"quantity": "event", "time": time, "value": np.nan, "difference": difference}
         for time, difference in zip(events, differences, strict=True)

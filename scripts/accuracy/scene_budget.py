@@ -146,8 +146,8 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     robust = observables.robust_values(shown, truth, alike, settings["axes"], LINE)
     work_at = cache(partial(measure_work, parameters[:: max(1, len(parameters) // 50)]))
 
-    def row(variant: str, of: dict, seconds: float, found: pd.DataFrame) -> dict:
-        visible = observables.visible_differences(shown, truth, found, settings["axes"], LINE)
+    def row(variant: str, of: dict, seconds: float, table: pd.DataFrame) -> dict:
+        visible = observables.visible_differences(shown, truth, table, settings["axes"], LINE)
         shares = [visible[name][robust[name]].mean() for name in shown.drawn if robust[name].any()]
         steps, sticks = work_at(of["tolerance"])
         return {
@@ -190,21 +190,21 @@ def make(
     entries : settings of the tables by name, SECTION/NAME
     drawn : names of the tables behind each figure
     """
-    found: dict[str, list[dict]] = {}
+    rows_by_table: dict[str, list[dict]] = {}
     # The slowest tables come last in the config and are started first, so that all threads end together.
     listed = list(entries.items())[::-1]
 
     def work(begin: int, end: int) -> None:
         for reference, entry in listed[begin:end]:
-            found[reference] = rows_of_table(reference, entry, settings)
+            rows_by_table[reference] = rows_of_table(reference, entry, settings)
 
     for_each_chunk(work, len(listed), threads=threads, chunk=1, progress=progress)
     rows = [
         {"figure": figure, **row}
         for figure, references in drawn.items()
-        for row in ([one for reference in references for one in found[reference]] if references else [NOTHING])
+        for row in ([one for reference in references for one in rows_by_table[reference]] if references else [NOTHING])
     ]
-    times = [row for reference in entries for row in found[reference]]
+    times = [row for reference in entries for row in rows_by_table[reference]]
     return {
         "scene_budget": fields.columns(rows, TABLES["scene_budget"]),
         "budget_times": fields.columns(times, TABLES["budget_times"]),

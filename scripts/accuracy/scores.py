@@ -65,10 +65,10 @@ def event_error(scene: dict, solution: dict) -> float:
     if "events" not in solution:
         return np.nan
     times = [event["time"] for event in scene["events"] if event["kind"] == "impact"]
-    found = [float(moment) for moment, kind in solution["events"] if kind == "impact"]
-    if len(found) != len(times):
+    own = [float(moment) for moment, kind in solution["events"] if kind == "impact"]
+    if len(own) != len(times):
         return np.inf
-    return float(np.abs(np.subtract(found, times)).max(initial=0.0))
+    return float(np.abs(np.subtract(own, times)).max(initial=0.0))
 
 
 def time_solver(solve: Solver, scene: dict, tolerance: float) -> tuple[dict, float]:

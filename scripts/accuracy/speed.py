@@ -47,9 +47,9 @@ def factors(runs: pd.DataFrame, equal_error: float = EQUAL_ERROR) -> list[Factor
     own, others = runs[runs.treatment == OWN], runs[runs.method != "event"]
     paper = paper_run(runs)
     pairs = [(paper.trajectory_error, paper), (equal_error, fastest(others, equal_error))]
-    found = []
+    compared = []
     for error, other in pairs:
         solver = fastest(own, error)
         if solver is not None and other is not None:
-            found.append(Factor(other.method, error, other.milliseconds, solver.milliseconds))
-    return found
+            compared.append(Factor(other.method, error, other.milliseconds, solver.milliseconds))
+    return compared

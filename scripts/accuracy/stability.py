@@ -225,10 +225,10 @@ def region_rows(effort: float, progress: str | None) -> list[dict]:
         values = panel_values(panel, effort)
         for method in FIXED_STEP_METHODS:
             if panel == "conveyor":
-                found = conveyor_experiments(method, values, HEIGHT, DURATION)
+                experiments = conveyor_experiments(method, values, HEIGHT, DURATION)
             else:
-                found = [rest_experiment(panel, method, value) for value in values]
-            lines += [(panel, method, value, *one) for value, one in zip(values, found, strict=True)]
+                experiments = [rest_experiment(panel, method, value) for value in values]
+            lines += [(panel, method, value, *one) for value, one in zip(values, experiments, strict=True)]
     rows = []
     for panel, method, value, outcome, theory in progress_bar(lines, label=progress, unit="lines"):
         rows += [row(panel, method, step, value, outcome(step), theory) for step in steps]

@@ -114,8 +114,8 @@ def exponent_rows(model: dict, progress: str | None) -> list[dict]:
                     value = finite_difference_exponent(
                         here, there, **run, output=case["output"], last=LAST, samples=SAMPLES, method=method
                     )[0]
-                    found = run | {"value": float(value), "error": math.nan, "truth": truth, "bound": bound}
-                    rows.append({**NONE, "panel": panel, "case": name, "estimator": method, **found})
+                    estimated = run | {"value": float(value), "error": math.nan, "truth": truth, "bound": bound}
+                    rows.append({**NONE, "panel": panel, "case": name, "estimator": method, **estimated})
     return rows
 
 
@@ -128,43 +128,43 @@ def portrait(parameters: np.ndarray, times: np.ndarray, method: str) -> np.ndarr
 
 def estimate_dimensions(points: np.ndarray, theiler: int, most: int) -> dict[str, Dimension]:
     """The dimension of points by all estimators; the correlation sum only of at most `most` points."""
-    found = {
+    estimated = {
         "boxes": box_dimension(points),
         "boxes, as in the paper": box_dimension_of_paper(points),
     }
     if len(points) <= most:
-        found["correlation sum"] = correlation_dimension(points, theiler)
-    return found
+        estimated["correlation sum"] = correlation_dimension(points, theiler)
+    return estimated
 
 
 def dimension_rows(model: dict, progress: str | None) -> list[dict]:
     """Dimensions of known sets and settled portraits over the number of points, published ones over the duration."""
     rows = []
 
-    def add(panel, case, found, truth, **run):
+    def add(panel, case, estimated, truth, **run):
         rows.extend(
             {**NONE, "panel": panel, "case": case, "estimator": name, "truth": truth, **run}
             | {"value": one.value, "error": one.error}
-            for name, one in found.items()
+            for name, one in estimated.items()
         )
 
     for count in progress_bar(POINTS, label=progress and f"{progress}: points", unit="sizes"):
         rng = np.random.default_rng(SEED)
         for draw, truth in REFERENCE_DIMENSIONS.items():
-            found = estimate_dimensions(draw(rng, count), 0, CORRELATED)
-            add("known set", draw.__name__, found, truth, samples=count)
+            estimated = estimate_dimensions(draw(rng, count), 0, CORRELATED)
+            add("known set", draw.__name__, estimated, truth, samples=count)
         for name, case in PORTRAITS.items():
             times = BEGIN + INTERVAL / model["frequency"] * np.arange(count)
             points = portrait(parameters_of(case, model)[0], times, "event")
-            found = estimate_dimensions(points, THEILER, CORRELATED)
-            add("samples", name, found, CURVE[name], samples=count)
+            estimated = estimate_dimensions(points, THEILER, CORRELATED)
+            add("samples", name, estimated, CURVE[name], samples=count)
     for name, case in PORTRAITS.items():
         for duration in RUN_TIMES:
             count = round(duration * model["frequency"] / PAPER_INTERVAL) + 1
             times = np.linspace(0.0, duration, count)
             points = portrait(parameters_of(case, model)[0], times, "euler")
-            found = {"boxes, as in the paper": box_dimension_of_paper(points)}
-            add("run time", name, found, CURVE[name], samples=count, duration=duration)
+            estimated = {"boxes, as in the paper": box_dimension_of_paper(points)}
+            add("run time", name, estimated, CURVE[name], samples=count, duration=duration)
     return rows
 
 

@@ -105,12 +105,12 @@ def linear_contact(model: dict, stiffness: float, restitution: float, **changes:
 def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[float, float]:
     """Range of a_z/g in which a part with a stiff linear contact has a stable orbit with one impact per cycle.
 
-    The ends are found by continuation of the orbit.
+    The ends follow from continuation of the orbit.
 
     Raises
     ------
     JobError
-        if the orbit, its fold or its period doubling is not found
+        if the orbit, its fold or its period doubling is missing
     """
     low, high = closed_forms.rigid_range(restitution)
     gravity, vertical = normal_gravity(model), math.sin(model["angle"])
@@ -172,17 +172,17 @@ def impact_rows(settings: dict) -> Iterator[dict]:
     damped, _ = grid.conveyor_and_start(model)
     elastic, _ = grid.conveyor_and_start(model | {"damping": 0.0})
     for speed in SPEED:
-        found, depth = simulate_impact(elastic, speed), closed_forms.compression(elastic, speed)
+        simulated, depth = simulate_impact(elastic, speed), closed_forms.compression(elastic, speed)
         case = f"undamped, {speed:g} m/s"
         duration = closed_forms.undamped_duration(elastic, speed)
         force = elastic.stiffness * depth**elastic.exponent
-        yield row("impact", "duration of an impact", case, "s", duration, found.duration, "Hertz 1882")
-        yield row("impact", "peak force of an impact", case, "N", force, found.peak, "Hertz 1882")
+        yield row("impact", "duration of an impact", case, "s", duration, simulated.duration, "Hertz 1882")
+        yield row("impact", "peak force of an impact", case, "N", force, simulated.peak, "Hertz 1882")
     for speed in SPEED:
         beta = damped.damping / damped.mass * closed_forms.compression(damped, speed) / speed
-        theory, found = closed_forms.reduced_restitution(damped.exponent, beta), simulate_impact(damped, speed)
+        theory, simulated = closed_forms.reduced_restitution(damped.exponent, beta), simulate_impact(damped, speed)
         case, source = f"F = k δ^p + d δ̇, {speed:g} m/s", "reduced equation, SciPy"
-        yield row("impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
+        yield row("impact", "coefficient of restitution", case, "1", theory, simulated.restitution, source)
     speed = SPEED[0]
     unit = elastic.mass * speed / closed_forms.compression(elastic, speed)  # damping with β = 1
 
@@ -198,10 +198,10 @@ def impact_rows(settings: dict) -> Iterator[dict]:
         clipped = closed_forms.restitution_without_tension(restitution)
         for tension, theory in (("allow", restitution), ("clip", clipped)):
             contact = linear_contact(model, STIFFNESS[0], restitution, tension=tension)
-            found = simulate_impact(contact, speed)
+            simulated = simulate_impact(contact, speed)
             case = f"F = k δ + d δ̇, ζ = {closed_forms.damping_ratio(restitution):.3g}, {tension}"
             source = "Schwager and Pöschel 2007"
-            yield row("impact", "coefficient of restitution", case, "1", theory, found.restitution, source)
+            yield row("impact", "coefficient of restitution", case, "1", theory, simulated.restitution, source)
 
 
 def sliding_rows(settings: dict) -> Iterator[dict]:

@@ -142,7 +142,7 @@ def choose_length(sizes: np.ndarray, tolerance: float) -> arb:
 def bound_remainders(
     bounds: System, sizes: np.ndarray, rate_bounds: Sequence[arb_poly], length: arb
 ) -> list[arb] | None:
-    """Bounds on the remainders of series on [-length, length], or None if none are found.
+    """Bounds on the remainders of series on [-length, length], or None if the search gives none.
 
     Parameters
     ----------
@@ -173,7 +173,7 @@ def bound_remainders(
 def make_step(system: System, initial: Sequence[arb], columns: int) -> Step:
     """A step of the contact with proved remainders.
 
-    Refused if no length is found for which the remainder has a bound.
+    Refused if the remainder has a bound for none of the lengths that are tried.
 
     Parameters
     ----------

@@ -6,7 +6,7 @@ The integrators are the methods of scipy's `solve_ivp` and, if they are installe
 
 - "sign": not at all. The sign of the gap switches the force, and the sign of the slip velocity switches friction.
 - "events": flight, slip forward, slip backward and stick each have a smooth right-hand side, and events of the
-  integrator end each mode. The next mode begins at the state that the event has found.
+  integrator end each mode. The next mode begins at the state of the event.
 - "modes": the same, but the next mode begins beside the zero of the event, on its own side.
 
 The right-hand sides are compiled, so that methods are compared, not Python with machine code.
