@@ -34,7 +34,7 @@ CONSTANTS = {
     "accuracy/scenes": {"precision": "scenes", "": "published_scenes"},
     "accuracy/settling_times": {"settling_times": "acceleration z0"},
     "accuracy/speed": {"figures.NAME.settings": "paper_step equal_error"},
-    "accuracy/stability": {"stability": "contact step stiffness damping impact_velocity conveyor"},
+    "accuracy/stability": {"stability": "contact conveyor damping impact_velocity methods step stiffness"},
     "accuracy/stability_estimates": {"": "stability_estimates"},
     "accuracy/theory": {"": "theory"},
     "calibration/edges": {"identification": "contacts heights edges"},
@@ -48,8 +48,8 @@ CONSTANTS = {
     "calibration/paper_posterior": {"identification": "evidence search"},
     "calibration/predicted": {"calibration": "outliers"},
     "calibration/prediction": {"calibration": "beyond"},
+    "calibration/settings": {"identification": "bounds ranges"},
     "calibration/study": {"": "calibration_study"},
-    "calibration/settings": {"identification": "ranges"},
     "dimensions/portraits": {"dimensions.NAME": "interval octaves theiler largest_error"},
     "docs/companion/build": {"companion": "opening separation"},
     "figures/plots/bifurcation": {"figures.NAME.settings": "lowest_exponent"},
@@ -86,9 +86,8 @@ GONE = (
         "scaling",
         "companion.tolerance",
         "companion.cycles",
-        "identification.bounds",
     ),
-    *(f"stability.{key}" for key in ("hard", "rivals", "stick", "chatter_steps", "methods")),
+    *(f"stability.{key}" for key in ("hard", "rivals", "stick", "chatter_steps")),
 )
 # Settings with a new name.
 RENAMED = {
