@@ -11,13 +11,13 @@ import pandas as pd
 
 from figures.titles import split_title
 from operating.regimes import is_steep
-from pipeline.templates import render
+from pipeline.templates import name_harmonics, render
 
 
 def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings: dict, paper: bool = True) -> str:
     """The caption of a figure from its template, tables and settings, and its numbers in caption_numbers/.
 
-    `paper` says whether the figure shows the paper's conveyor.
+    `paper` says whether the figure shows the paper's conveyor. Harmonics of the plate are named at the end.
 
     Raises
     ------
@@ -33,7 +33,10 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
     conveyor = "the paper's conveyor" if paper else "this conveyor"
     models = [table.attrs["model"] for table in tables.values() if "friction" in table.attrs.get("model", {})]
     about = {"paper": paper, "conveyor": conveyor, "slides": any(map(is_steep, models))}
-    return render(template, values | numbers | about)
+    text = render(template, values | numbers | about)
+    for harmonics in sorted({name_harmonics(model) for model in models} - {""}):
+        text = f"{text.rstrip()} The plate's motion has {harmonics}.\n"
+    return text
 
 
 def make(

@@ -56,6 +56,14 @@ def join_list(values: Iterable) -> str:
     return " and ".join(filter(None, [", ".join(texts[:-1]), *texts[-1:]]))
 
 
+def name_harmonics(model: Mapping[str, Any]) -> str:
+    """ "harmonics of the orders 2 and 3" of a model's plate; empty without harmonics."""
+    orders = [harmonic["order"] for harmonic in model.get("harmonics", ())]
+    if not orders:
+        return ""
+    return f"harmonics of the orders {join_list(orders)}" if len(orders) > 1 else f"a harmonic of the order {orders[0]}"
+
+
 ENVIRONMENT = Environment(undefined=StrictUndefined, keep_trailing_newline=True, finalize=format_field)
 ENVIRONMENT.filters |= {
     "number": format_number,
@@ -67,6 +75,7 @@ ENVIRONMENT.filters |= {
     "counted": format_count,
     "thousands": "{:,}".format,
     "listed": join_list,
+    "harmonics": name_harmonics,
 }
 
 

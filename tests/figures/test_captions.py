@@ -41,6 +41,22 @@ def test_a_missing_number_is_an_error():
     assert captions.caption("no number\n", "fig01", {}, {}) == "no number\n"
 
 
+@pytest.mark.parametrize(
+    ("orders", "end"),
+    [
+        ((), ""),
+        ((2,), " The plate's motion has a harmonic of the order 2."),
+        ((2, 5), " harmonics of the orders 2 and 5."),
+    ],
+)
+def test_captions_name_harmonics_of_the_plate(orders, end):
+    table = pd.DataFrame()
+    table.attrs = {"model": {"friction": 0.2, "inclination": 0.0, "harmonics": [{"order": order} for order in orders]}}
+    text = captions.caption("Some runs.\n", "fig01", {"runs": table}, {})
+    assert text.startswith("Some runs.") and text.endswith(f"{end}\n")
+    assert ("harmonic" in text) == bool(orders)
+
+
 def test_titles_have_no_typed_number():
     for name in FIGURES:
         title = title_of(name)

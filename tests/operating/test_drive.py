@@ -225,6 +225,11 @@ def test_a_search_that_finds_nothing_says_so(monkeypatch):
     front.attrs = SETTINGS
     page = drive_page.make(TEMPLATE, front, generations)
     assert "found no design within the constraints." in page and "too steep" not in page
+    assert "The plate's motion has" not in page
+    front.attrs = SETTINGS | {"model": SETTINGS["model"] | {"harmonics": [{"order": 3}]}}
+    assert "The plate's motion has a harmonic of the order 3" in drive_page.make(
+        TEMPLATE, front.assign(recommended=True), generations
+    )
     steep = front.copy()
     steep.attrs = SETTINGS | {"model": SETTINGS["model"] | {"friction": 0.3, "inclination": 0.5}}
     page = drive_page.make(TEMPLATE, steep, generations)

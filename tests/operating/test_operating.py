@@ -438,6 +438,13 @@ def test_the_page_says_that_parts_move_back_everywhere(refined):
     assert "All parts have equal parameters" in page
 
 
+def test_the_page_names_harmonics_of_the_plate(refined):
+    tables = advised()
+    assert "whose motion has" not in page_of(refined, tables)
+    tables[0].attrs["model"] = tables[0].attrs["model"] | {"harmonics": [{"order": 2}, {"order": 3}]}
+    assert "on a plate whose motion has harmonics of the orders 2 and 3. They come" in page_of(refined, tables)
+
+
 def test_large_forces_have_no_exponent_and_unknown_ones_are_left_out(refined):
     page = page_of(refined, advised(peak_force=128.0))
     assert "contact force up to 130 N (13000 times the weight of the part)" in page

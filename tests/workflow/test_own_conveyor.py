@@ -206,6 +206,15 @@ def test_a_figure_that_makes_no_sense_says_so():
     assert "figures/bowl/fig04.pdf cannot be made for this conveyor: its amplitudes lie" in run.stdout
 
 
+def test_a_figure_that_takes_no_harmonics_says_so(tmp_path):
+    harmonic = {"order": 2, "along": 0.1, "along_phase": 0.0, "normal": 0.1, "normal_phase": 0.0}
+    overlay = tmp_path / "mine.yaml"
+    overlay.write_text(yaml.safe_dump({"prefix": "mine", "model": {"harmonics": [harmonic]}}))
+    run = Project(ROOT).called("--dry-run", "figures/mine/sensitivity.pdf", "--configfile", str(overlay))
+    assert run.returncode != 0
+    assert "figures/mine/sensitivity.pdf cannot be made for this conveyor: its derivatives" in run.stdout
+
+
 @pytest.mark.parametrize("target", ["article", "results/bowl/docs/identification.md"])
 def test_pages_with_the_papers_results_say_that_they_need_its_config(target):
     """The article needs the facts, and the page a table that is made from the claims."""

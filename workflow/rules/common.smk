@@ -237,6 +237,8 @@ NO_FIGURES = {
     for name, entry in (PAPER["figures"] | PAPER["figures_on_request"]).items()
     if "paper_only" in entry and name not in FIGURES
 }
+if "sensitivity" not in FIGURES:
+    NO_FIGURES["sensitivity"] = "its derivatives are in dimensionless groups, which a plate with harmonics has not"
 if not HAS_RECORDING:
     NO_FIGURES["excitation"] = NO_RECORDING
 if not HAS_MEASUREMENTS:
