@@ -45,7 +45,7 @@ def widest():
     return next(register for register in REGISTERS if found[register])
 
 
-@pytest.mark.parametrize(("harmonics", "least"), [(0, 500), (1, 1000), (3, 2000)])
+@pytest.mark.parametrize(("harmonics", "least"), [(0, 500), (3, 2000)])
 def test_contact_steps_are_vector_code(widest, harmonics, least):
     """The expansion has about 360 products and sums, and each harmonic adds some 500 vector instructions."""
 
@@ -58,13 +58,13 @@ def test_contact_steps_are_vector_code(widest, harmonics, least):
     assert vector_instructions(step)[widest] > least
 
 
-@pytest.mark.parametrize(("method", "least"), [("euler", 30), ("semi_implicit_euler", 30), ("rk4", 90)])
 @pytest.mark.parametrize(
-    "plate",
+    ("method", "least", "plate"),
     [
-        {},
-        {"inclination": 0.1, "phase_shift": 0.5, "static_friction": 0.5},
-        {"harmonics": [{"order": 2, "normal": 0.1}, {"order": 5, "along": 0.1}]},
+        ("euler", 30, {}),
+        ("euler", 30, {"harmonics": [{"order": 2, "normal": 0.1}, {"order": 5, "along": 0.1}]}),
+        ("semi_implicit_euler", 30, {}),
+        ("rk4", 90, {"inclination": 0.1, "phase_shift": 0.5, "static_friction": 0.5}),
     ],
 )
 def test_fixed_steps_are_vector_code(widest, method, least, plate):

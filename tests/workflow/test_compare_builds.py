@@ -1,21 +1,21 @@
 """The comparison of two builds: exact, within a tolerance, and differences that it must not miss."""
 
-import subprocess
-import sys
+from types import SimpleNamespace
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from project import ROOT
 
+import compare_builds
 from builds.provenance import MAY_DIFFER
 
 TABLE = {"x": [1.0, 2.0, None], "state": ["first", "second", None], "list": [[1.0], [], [2.0, None]]}
 
 
 @pytest.fixture
-def folders(tmp_path):
+def folders(tmp_path, monkeypatch):
     """Two folders with the same table, and a function that changes the second table."""
+    monkeypatch.chdir(tmp_path)
     for name in ("one", "other"):
         (tmp_path / name / "sweeps").mkdir(parents=True)
         pq.write_table(pa.table(TABLE), tmp_path / name / "sweeps/a.parquet")
@@ -27,23 +27,33 @@ def folders(tmp_path):
     return change
 
 
-def run(folder, *arguments):
-    command = [sys.executable, str(ROOT / "scripts/compare_builds.py"), "one", "other", *arguments]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+@pytest.fixture
+def run(capsys):
+    """A function that compares the folders, and returns the exit status and what was printed."""
+
+    def compare(*arguments):
+        try:
+            status = compare_builds.main(["one", "other", *arguments])
+        except SystemExit as error:
+            status = error.code
+        return SimpleNamespace(returncode=status, **capsys.readouterr()._asdict())
+
+    return compare
 
 
-def test_equal_tables(folders):
-    found = run(folders())
-    assert found.returncode == 0, found.stderr
-    assert found.stdout == "1 tables: 1 equal\n"
+def test_equal_tables(run, folders):
+    folders()
+    found = run()
+    assert found.returncode == 0, found.err
+    assert found.out == "1 tables: 1 equal\n"
 
 
-def test_a_difference_within_the_tolerance(folders):
-    folder = folders(x=[1.0, 2.0 + 1e-12, None])
-    found = run(folder)
+def test_a_difference_within_the_tolerance(run, folders):
+    folders(x=[1.0, 2.0 + 1e-12, None])
+    found = run()
     assert found.returncode == 0
-    assert "sweeps/a.parquet: within tolerance\n    x: 1 of 3 rows, by at most 1e-12 (relative 5e-13)" in found.stdout
-    assert run(folder, "--tolerance", "0").returncode == 1
+    assert "sweeps/a.parquet: within tolerance\n    x: 1 of 3 rows, by at most 1e-12 (relative 5e-13)" in found.out
+    assert run("--tolerance", "0").returncode == 1
 
 
 @pytest.mark.parametrize(
@@ -57,52 +67,54 @@ def test_a_difference_within_the_tolerance(folders):
         ({name: values[:2] for name, values in TABLE.items()}, "rows: 3 and 2"),
     ],
 )
-def test_a_difference_is_named(folders, columns, message):
-    found = run(folders(**columns))
+def test_a_difference_is_named(run, folders, columns, message):
+    folders(**columns)
+    found = run()
     assert found.returncode == 1
-    assert "sweeps/a.parquet: DIFFERENT" in found.stdout
-    assert message in found.stdout
+    assert "sweeps/a.parquet: DIFFERENT" in found.out
+    assert message in found.out
 
 
-def test_a_setting_that_differs_is_named(folders):
+def test_a_setting_that_differs_is_named(run, folders):
     folder = folders()
     for name, duration in (("one", 0.5), ("other", 0.6)):
         frame = pa.table(TABLE).to_pandas()
         frame.attrs = {"duration": duration, "step": 1e-6}
         frame.to_parquet(folder / name / "sweeps/a.parquet")
-    found = run(folder)
+    found = run()
     assert found.returncode == 1
-    assert found.stdout.startswith("sweeps/a.parquet: DIFFERENT\n    setting duration: 0.5 and 0.6\n1 tables")
+    assert found.out.startswith("sweeps/a.parquet: DIFFERENT\n    setting duration: 0.5 and 0.6\n1 tables")
 
 
-def test_shards_and_other_prefixes_do_not_count(folders):
+def test_shards_and_other_prefixes_do_not_count(run, folders):
     folder = folders()
     for name in ("shards/a", "reduced/sweeps"):
         (folder / "other" / name).mkdir(parents=True)
         pq.write_table(pa.table(TABLE), folder / "other" / name / "0.parquet")
     pq.write_table(pa.table(TABLE), folder / "other/reduced/claims.parquet")
-    found = run(folder)
+    found = run()
     assert found.returncode == 0
-    assert found.stdout == "1 tables: 1 equal\n"
+    assert found.out == "1 tables: 1 equal\n"
 
 
-def test_a_table_of_one_build_only(folders):
-    found = run(folders("sweeps/b.parquet"))
+def test_a_table_of_one_build_only(run, folders):
+    folders("sweeps/b.parquet")
+    found = run()
     assert found.returncode == 1
-    assert "sweeps/b.parquet: DIFFERENT\n    only in other" in found.stdout
+    assert "sweeps/b.parquet: DIFFERENT\n    only in other" in found.out
 
 
-def test_measured_times_do_not_count(folders):
+def test_measured_times_do_not_count(run, folders):
     folder = folders(x=[5.0, 2.0, None])
     (folder / "one/manifest.sha256").write_text(f"{MAY_DIFFER}one/sweeps/a.parquet\n")
-    found = run(folder)
+    found = run()
     assert found.returncode == 0
-    assert "1 tables: 1 measured times" in found.stdout
+    assert "1 tables: 1 measured times" in found.out
 
 
-def test_a_folder_without_tables_is_an_error(folders):
+def test_a_folder_without_tables_is_an_error(run, folders):
     folder = folders()
     (folder / "one/sweeps/a.parquet").unlink()
-    found = run(folder)
+    found = run()
     assert found.returncode == 2
-    assert "one has no tables" in found.stderr
+    assert "one has no tables" in found.err

@@ -1,6 +1,9 @@
 """The environment of jobs."""
 
+import pytest
 from project import Project
+
+pytestmark = pytest.mark.long
 
 STATUS = """
     import pyarrow

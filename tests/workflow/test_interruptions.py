@@ -6,6 +6,8 @@ import time
 
 import pytest
 
+pytestmark = pytest.mark.long
+
 TARGET, LOG = "results/{prefix}/estimates/phase.parquet", "results/{prefix}/logs/estimates/phase.log"
 
 

@@ -98,7 +98,7 @@ def random_starts(acceleration, count):
 
 @pytest.fixture(scope="module")
 def hard():
-    return np.concatenate([random_starts(acceleration, 8) for acceleration in HARD])
+    return np.concatenate([random_starts(acceleration, 5) for acceleration in HARD])
 
 
 def test_labels_do_not_depend_on_other_initial_conditions(hard):
