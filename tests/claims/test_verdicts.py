@@ -156,13 +156,18 @@ def test_reason_says_which_number_is_outside():
 
 
 def test_critical_acceleration_uses_the_part_at_rest():
-    table = sweep(lambda a, z: "second" if a >= 50.0 or z > 0.0 else "first")
-    assert numbers(about_states.critical_acceleration(**both(table)).converged) == (50.0,)
+    """Of each method in its own table."""
+    late, early = (sweep(lambda a, z, at=at: "second" if a >= at or z > 0.0 else "first") for at in (50.0, 45.0))
+    finding = about_states.critical_acceleration(converged=late, euler=early)
+    assert (numbers(finding.converged), numbers(finding.euler)) == ((50.0,), (45.0,))
 
 
 def test_interval_of_two_states():
-    table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
-    assert numbers(about_states.interval(**both(table)).converged) == (29.0, 47.0)
+    late, early = (
+        sweep(lambda a, z, end=end: "second" if a > end or (a >= 29.0 and z > 0.0) else "first") for end in (47.0, 40.0)
+    )
+    finding = about_states.interval(converged=late, euler=early)
+    assert (numbers(finding.converged), numbers(finding.euler)) == ((29.0, 47.0), (29.0, 40.0))
     assert all(math.isnan(end) for end in numbers(about_states.interval(**both(sweep("first"))).converged))
 
 
