@@ -4,7 +4,6 @@ Functions that follow many trajectories take such a table. Their results have it
 same numbers as rows of float64, in an order that nothing else needs to know.
 """
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -167,7 +166,7 @@ def heights_of_rows(rows):
     heights = np.empty(len(rows))
     for i in range(len(rows)):
         c = contact.constants(rows[i], DEFAULT_TOLERANCE)
-        heights[i] = plate.height(c, math.sin(c.psi0), math.cos(c.psi0))
+        heights[i] = plate.height(c, *plate.sine_and_cosine(c.psi0))
     return heights
 
 

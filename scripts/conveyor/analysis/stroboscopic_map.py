@@ -251,6 +251,6 @@ def pack_states(parameters: np.ndarray, states: np.ndarray, tolerance: float) ->
     packed = np.array(parameters, dtype=np.float64)
     for row, (delta, v) in zip(packed, states, strict=True):
         c = contact.constants(row, tolerance)
-        z, vz = plate.height_and_rise(c, np.sin(row[PSI0]), np.cos(row[PSI0]))
+        z, vz = plate.height_and_rise(c, *plate.sine_and_cosine(row[PSI0]))
         row[Z0], row[VZ0] = z - delta, vz - v
     return packed

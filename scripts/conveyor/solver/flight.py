@@ -29,8 +29,7 @@ Flight = namedtuple("Flight", "z vz theta c")
 @compiled_inline
 def gap(flight, tau):
     """Gap (m) and its rate (m/s) after the time `tau` (s) of a flight."""
-    phase = flight.theta + flight.c.omega * tau
-    return gap_at_phase(flight, tau, math.sin(phase), math.cos(phase))
+    return gap_at_phase(flight, tau, *plate.sine_and_cosine(flight.theta + flight.c.omega * tau))
 
 
 @compiled_inline
@@ -44,8 +43,7 @@ def gap_at_phase(flight, tau, sine, cosine):
 @compiled_inline
 def fall(flight, tau):
     """Acceleration (m/s²) with which the gap closes after the time `tau` (s) of a flight."""
-    phase = flight.theta + flight.c.omega * tau
-    return flight.c.gravity + plate.lift(flight.c, math.sin(phase), math.cos(phase))
+    return flight.c.gravity + plate.lift(flight.c, *plate.sine_and_cosine(flight.theta + flight.c.omega * tau))
 
 
 @compiled_inline

@@ -117,8 +117,7 @@ def sample_contact(c, step, segment, tau, sample):
     """Fill a `sample`, shape (6,), at a time tau (s) after the beginning of a contact step, within a segment."""
     series, at, motion = step.series, step.at, step.motion
     s = invert_time(series, at, step.piece.length, tau)
-    phase = motion.theta + c.omega * tau
-    sine, cosine = math.sin(phase), math.cos(phase)
+    sine, cosine = plate.sine_and_cosine(motion.theta + c.omega * tau)
     w, v = value(series, at + workspace.W, s), value(series, at + workspace.V, s)
     z, vz = plate.surface(c, sine, cosine)
     z, vz = z - w * w, vz - v
@@ -158,8 +157,7 @@ def follow_contact(c, step, horizontal, feeding, record):
             s = change
             t = value(series, at + workspace.T, s)
             w, v = value(series, at + workspace.W, s), value(series, at + workspace.V, s)
-            phase = motion.theta + c.omega * t
-            sine, cosine = math.sin(phase), math.cos(phase)
+            sine, cosine = plate.sine_and_cosine(motion.theta + c.omega * t)
         while begin + t >= next_time(record):
             tau = next_time(record) - begin
             sample_contact(c, step, segment, tau, next_sample(record))

@@ -45,6 +45,12 @@ Plate = namedtuple("Plate", "omega a_x a_z cos_shift sin_shift harmonics waves")
 
 
 @compiled_inline
+def sine_and_cosine(phase):
+    """Sine and cosine of a phase (rad), which the functions of a phase take."""
+    return math.sin(phase), math.cos(phase)
+
+
+@compiled_inline
 def add_phases(sine, cosine, s, c):
     """Sine and cosine of the sum of two phases."""
     return sine * c + cosine * s, cosine * c - sine * s
@@ -210,7 +216,7 @@ def sums_at(harmonics, phases):
     """The Sums, float64, shape (n, 6), of packed harmonics, shape (n, 5 h), at phases (rad), shape (n,)."""
     sums_of_phases = np.empty((len(phases), 6))
     for i in range(len(phases)):
-        sums, sine, cosine = NO_SUMS, math.sin(phases[i]), math.cos(phases[i])
+        sums, (sine, cosine) = NO_SUMS, sine_and_cosine(phases[i])
         for h in range(0, harmonics.shape[1], NUMBERS):
             harmonic = numbers_at(harmonics[i], np.uint64(h), ONE)
             sums = add_harmonic(sums, harmonic, *multiple(int(harmonic[K]), sine, cosine))

@@ -33,7 +33,7 @@ Piece = namedtuple("Piece", "kind duration length end w v sine cosine repeated")
 @compiled
 def begin(c, z0, vz0, theta):
     """Gap (m) and its rate (m/s) of an initial condition; the gap is exactly 0 on the plate (z0 is NaN, Eq. 15)."""
-    sine, cosine = math.sin(theta), math.cos(theta)
+    sine, cosine = plate.sine_and_cosine(theta)
     q = 0.0 if math.isnan(z0) else z0 - plate.height(c, sine, cosine)
     return q, vz0 - plate.rise(c, sine, cosine)
 
@@ -54,7 +54,7 @@ def at_surface(c, v, sine, cosine):
 @compiled
 def motion_at(c, q, rate, t, theta):
     """The Motion with a gap q (m) and its rate (m/s) at the time t (s) of a cycle and the phase theta (rad)."""
-    sine, cosine = math.sin(theta), math.cos(theta)
+    sine, cosine = plate.sine_and_cosine(theta)
     z, vz = q + plate.height(c, sine, cosine), rate + plate.rise(c, sine, cosine)
     w, v, touching = math.sqrt(max(-q, 0.0)), -rate, q < 0.0
     if q == 0.0:
@@ -116,8 +116,8 @@ def fly(c, motion, limit):
     end = LANDING
     if not tau < math.inf:
         end, tau = (TIME_LIMIT, limit) if tau == math.inf else (LOST, tau)
-    phase = motion.theta + c.omega * tau
-    return Piece(FLIGHT, tau, 0.0, end, 0.0, speed, math.sin(phase), math.cos(phase), False)
+    sine, cosine = plate.sine_and_cosine(motion.theta + c.omega * tau)
+    return Piece(FLIGHT, tau, 0.0, end, 0.0, speed, sine, cosine, False)
 
 
 @compiled_inline
@@ -199,4 +199,4 @@ def in_cycle(c, motion, t, origin):
     """The same Motion at the time t (s) of another cycle, which begins at the phase `origin` (rad)."""
     theta = origin + c.omega * t
     _, _, _, _, touching, w, v, pulled, z, vz, q, rate = motion
-    return Motion(t, theta, math.sin(theta), math.cos(theta), touching, w, v, pulled, z, vz, q, rate)
+    return Motion(t, theta, *plate.sine_and_cosine(theta), touching, w, v, pulled, z, vz, q, rate)
