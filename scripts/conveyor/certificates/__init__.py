@@ -7,7 +7,7 @@ results only say where to look; no bound depends on them. Read the modules in th
     law            the conveyor in units g/ω², g/ω, 1/ω, with its numbers read as exact decimals
     balls          conversions with outward rounding
     roots          the first zero of a function: interval Newton
-    flight         parabola and harmonic plate, in closed form
+    flight         parabola and plate, in closed form
     taylor         one Taylor step of a contact with a proved remainder, and its derivative
     double_double  compiled candidates for enclosures of its coefficients; `taylor` proves them
     motion         the motion from one phase to another through flights and contacts, and its derivative

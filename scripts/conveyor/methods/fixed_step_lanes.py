@@ -1,7 +1,7 @@
 """Fixed steps of several trajectories side by side, in plain loops that LLVM turns into vector code.
 
-A single trajectory is the same code with one lane. Sweeps over amplitudes would take 5.5 to 7.5 times as long with one
-lane, sweeps over ψ0 1.6 to 3.4 times. A result depends neither on its lane nor on its neighbours.
+A single trajectory is the same code with one lane. With one lane, sweeps over amplitudes or ψ0 would take four to five
+and a half times as long. A result depends neither on its lane nor on its neighbours.
 """
 
 import functools
