@@ -63,7 +63,7 @@ def test_the_posterior_of_normal_errors(inferred):
 def test_errors_grow_if_the_best_parameters_miss_by_more():
     """All numbers miss by three half intervals at best, and there is one degree of freedom more than parameters."""
     names = list("abcde")
-    settings = SETTINGS | {"numbers": dict.fromkeys(names, NUMBERS["state"])}
+    settings = SETTINGS | {"effort": 0.5, "numbers": dict.fromkeys(names, NUMBERS["state"])}
 
     def missed(x, tension, velocities):
         return dict.fromkeys(names, 3.0 + np.abs(x[:, 1] - CENTRE[1]) / REACH[1])
@@ -83,7 +83,7 @@ def values_to_loss(samples):
 
 def test_numbers_are_left_out_and_shifted():
     left_out = {"without": ["other"], "shifted": True}
-    samples, fits = posterior.infer(left_out, {"velocity": 2.0}, quantities, SETTINGS)
+    samples, fits = posterior.infer(left_out, {"velocity": 2.0}, quantities, SETTINGS | {"effort": 0.5})
     assert fits.numbers.tolist() == [2, 2]
     assert fits.share.tolist() == pytest.approx([0.5, 0.5], abs=0.03)
     y = (np.log(samples.friction) - CENTRE[0]) / REACH[0]

@@ -69,9 +69,9 @@ def swept(built):
 
     sweeps = {"mine": MINE, "mixed": MIXED}
     whole = {"prefix": "whole", "sweeps": sweeps}
-    built.under(whole).make("--cores", "2", *(f"results/whole/sweeps/{name}.parquet" for name in sweeps))
+    built.under(whole).make_in_process("--cores", "2", *(f"results/whole/sweeps/{name}.parquet" for name in sweeps))
     cut = {"prefix": "cut", "sharing": {"job_seconds": SHORTEST, "most_jobs": 3}, "sweeps": sweeps}
-    built.under(cut).make("--cores", "1", "results/cut/sweeps/mixed.parquet")
+    built.under(cut).make_in_process("results/cut/sweeps/mixed.parquet")
     return lambda prefix, name: built.folder / f"results/{prefix}/sweeps/{name}.parquet"
 
 
