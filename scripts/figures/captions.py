@@ -34,7 +34,8 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
     models = [table.attrs["model"] for table in tables.values() if "friction" in table.attrs.get("model", {})]
     about = {"paper": paper, "conveyor": conveyor, "slides": any(map(is_steep, models))}
     text = render(template, values | numbers | about)
-    for harmonics in sorted({name_harmonics(model) for model in models} - {""}):
+    # Tables of the motion normal to the track have models without friction.
+    for harmonics in sorted({name_harmonics(table.attrs.get("model", {})) for table in tables.values()} - {""}):
         text = f"{text.rstrip()} The plate's motion has {harmonics}.\n"
     return text
 

@@ -51,7 +51,7 @@ def test_a_missing_number_is_an_error():
 )
 def test_captions_name_harmonics_of_the_plate(orders, end):
     table = pd.DataFrame()
-    table.attrs = {"model": {"friction": 0.2, "inclination": 0.0, "harmonics": [{"order": order} for order in orders]}}
+    table.attrs = {"model": {"harmonics": [{"order": order} for order in orders]}}
     text = captions.caption("Some runs.\n", "fig01", {"runs": table}, {})
     assert text.startswith("Some runs.") and text.endswith(f"{end}\n")
     assert ("harmonic" in text) == bool(orders)
