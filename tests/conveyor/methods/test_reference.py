@@ -15,9 +15,7 @@ def test_known_mean_velocities():
     for acceleration, z, tension, expected in (
         (30.0, 0.0, "allow", 0.00709944242728),
         (40.0, 3e-4, "allow", 0.0650828019770),
-        (47.0, 0.0, "allow", 0.0120966358597),
         (52.5, 0.0, "allow", 0.0660410919632),
-        (30.0, 0.0, "frictionless", 0.00709947805),
         (40.0, 3e-4, "frictionless", 0.06458466344),
     ):
         conveyor = Conveyor(acceleration=acceleration, tension=tension)

@@ -55,14 +55,11 @@ def test_the_notice_and_the_time_are_in_the_log_of_a_rule(run, tmp_path):
     assert (tmp_path / "rule.log").read_text() == f"{NOTICE}\n"
 
 
-def test_functions_of_others_give_no_notice(run):
-    assert run(OTHER).stderr == ""
-
-
 @pytest.mark.parametrize("switch", ["enable", "disable"])
-def test_the_garbage_collector_is_left_as_it_was(run, switch):
+def test_functions_of_others_give_no_notice_and_the_garbage_collector_is_left_as_it_was(run, switch):
     found = run(f"import gc\ngc.{switch}(){OTHER}print(gc.isenabled())")
     assert found.stdout.split()[-1] == str(switch == "enable")
+    assert found.stderr == ""
 
 
 def test_functions_that_numba_cannot_keep_are_compiled(run):
