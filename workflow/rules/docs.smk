@@ -256,9 +256,7 @@ rule site:
             *(f"{DOCS}{page}.md" for page in ("checked", "identification", "add_your_solver")),
         ],
         scenes=SCENE_FILES,
-        examples=[
-            file for name in ("bowl", "feeder", "measured", "calibration") for file in sources(f"docs/{name}_*.*")
-        ],
+        examples=[file for name in ("bowl", "feeder", "measured") for file in sources(f"docs/{name}_*.*")],
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
         png=[*figure_files("png"), *DIAGRAMS.values()],
