@@ -1,9 +1,10 @@
 """Snakemake for tests: imported once, after which each command runs in a fork of this process.
 
-Importing Snakemake takes two thirds of the processor time of a dry run. Each line of standard input is a command in
-JSON; each line of standard output is its exit status.
+Importing Snakemake takes most of the processor time of a dry run. Each line of standard input is a command in JSON;
+each line of standard output is its exit status.
 """
 
+import gc
 import json
 import os
 import sys
@@ -11,11 +12,11 @@ import sys
 # Snakemake imports some packages when a command needs them.
 import nbformat  # noqa: F401
 import smart_open  # noqa: F401
-from snakemake.cli import main
+from snakemake.cli import main, parse_args
 
 
-def run(arguments: list[str], folder: str, environment: dict[str, str], output: str) -> None:
-    """Run Snakemake as a new process would in a folder, and write what it prints to the file `output`."""
+def run(arguments: list[str], folder: str, environment: dict[str, str], output: str) -> int:
+    """Run Snakemake as a new process would in a folder, write what it prints to a file, and return its exit status."""
     os.chdir(folder)
     os.environ.clear()
     os.environ.update(environment)
@@ -25,12 +26,19 @@ def run(arguments: list[str], folder: str, environment: dict[str, str], output: 
         os.dup2(nothing.fileno(), 0)
         for descriptor in (1, 2):
             os.dup2(file.fileno(), descriptor)
-    main(arguments)
+    try:
+        main(arguments)
+    except SystemExit as end:
+        sys.stdout.flush()
+        return end.code
 
 
+parse_args([])  # imports the plugins
+# A fork copies the memory that it writes to: neither its garbage collector nor its end may touch what it shares.
+gc.freeze()
 for line in sys.stdin:
     child = os.fork()
     if child == 0:
-        run(**json.loads(line))
+        os._exit(run(**json.loads(line)))
     _, status = os.waitpid(child, 0)
     print(os.waitstatus_to_exitcode(status), flush=True)
