@@ -123,7 +123,9 @@ class Browser:
 @pytest.fixture(scope="module")
 def browser(address, tmp_path_factory):
     driver = chromium(tmp_path_factory.mktemp("profile"))
-    yield Browser(driver, address)
+    found = Browser(driver, address)
+    found.open()
+    yield found
     driver.quit()
 
 
@@ -196,7 +198,6 @@ def deviation(found: dict, run: Run, duration: float) -> float:
 
 
 def test_the_stated_accuracy_is_measured(browser):
-    browser.open()
     cases = [(*setting, 20.0 / setting[0].frequency) for setting in random_settings()]
     within, errors = 0, []
     for (conveyor, start, duration), found in zip(cases, follow(browser, cases), strict=True):
@@ -218,7 +219,6 @@ def test_the_stated_accuracy_is_measured(browser):
 
 @pytest.mark.parametrize(("acceleration", "z0"), [(30.0, 0.0), (40.0, 0.3e-3), (47.0, 0.0), (52.5, 0.0)])
 def test_mean_velocities_agree_with_the_library(browser, acceleration, z0):
-    browser.open()
     conveyor, start = Conveyor(acceleration=acceleration), Start(z0)
     (found,) = follow(browser, [(conveyor, start, 1.0)])
     run = simulate(conveyor, start, duration=1.0)
@@ -231,7 +231,6 @@ def test_mean_velocities_agree_with_the_library(browser, acceleration, z0):
 def test_forces_agree_with_the_library(browser):
     feeder = Conveyor(acceleration=47.0, tension="clip", inclination=0.05, phase_shift=1.0, static_friction=0.3)
     cases = [(conveyor, Start("conveyor"), 0.3) for conveyor in (feeder, Conveyor(acceleration=47.0))]
-    browser.open()
     for (conveyor, start, duration), found in zip(cases, follow(browser, cases), strict=True):
         truth = simulate(conveyor, start, duration=duration).sample(np.linspace(0.0, duration, POINTS))
         for name, column in (("contact_force", "contactForce"), ("friction_force", "frictionForce")):
@@ -245,7 +244,6 @@ def test_forces_agree_with_the_library(browser):
 
 
 def test_euler_agrees_with_the_library(browser):
-    browser.open()
     feeder = {"inclination": 0.05, "phase_shift": 1.0}
     for changes in (*({"tension": tension} for tension in model.TENSION_MODES), feeder, {"static_friction": 0.4}):
         conveyor, start = Conveyor(**changes), Start(0.3e-3)

@@ -61,11 +61,12 @@ def test_redrawn_figures_are_equal_byte_for_byte(archive):
 
 def test_a_figure_that_differs_is_named(copy):
     drawn = json.loads((copy / "figures.json").read_text())
+    drawn = {figure: drawn[figure] for figure in ("figures/fig03.pdf", "figures/fig08.pdf")}
     drawn["figures/fig03.pdf"]["settings"]["critical_acceleration"] += 1.0
     (copy / "figures.json").write_text(json.dumps(drawn))
     run = redraw(copy)
     assert run.returncode == 1
-    assert "1 of 3 figures differ from the archive: figures/fig03.pdf" in run.stderr
+    assert "1 of 2 figures differ from the archive: figures/fig03.pdf" in run.stderr
 
 
 def test_a_large_archive_is_refused(built, tmp_path):

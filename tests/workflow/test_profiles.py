@@ -38,6 +38,7 @@ def test_slurm_gets_the_jobs(edited, tmp_path):
         (commands / command).write_text(SBATCH.format(calls=calls) if command == "sbatch" else "#!/bin/sh\n")
         (commands / command).chmod(0o755)
     profile = ("--workflow-profile", "workflow/profiles/slurm", "--retries", "0", "--latency-wait", "0")
+    profile += ("--slurm-init-seconds-before-status-checks", "1")
     found = run(project, "figures/fig22.pdf", *profile, "--keep-going", path=f"{commands}:/usr/bin:/bin")
     assert found.returncode != 0
     assert calls.is_file(), found.stdout
