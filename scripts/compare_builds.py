@@ -73,10 +73,10 @@ def compare_tables(one: pa.Table, other: pa.Table, tolerance: float) -> tuple[st
     if len(one) != len(other):
         return DIFFERENT, [*settings, f"rows: {len(one)} and {len(other)}"]
     unequal = [name for name in one.column_names if not one[name].equals(other[name])]
-    found = [compare_column(name, one[name], other[name], tolerance) for name in unequal]
-    verdicts = {verdict for verdict, _ in found} | ({DIFFERENT} if settings else set())
+    differences = [compare_column(name, one[name], other[name], tolerance) for name in unequal]
+    verdicts = {verdict for verdict, _ in differences} | ({DIFFERENT} if settings else set())
     verdict = next((verdict for verdict in (DIFFERENT, WITHIN) if verdict in verdicts), EQUAL)
-    return verdict, [*settings, *(text for _, text in found)]
+    return verdict, [*settings, *(text for _, text in differences)]
 
 
 def compare(one: Path, other: Path, tolerance: float) -> Iterator[tuple[str, str, list[str]]]:
@@ -101,12 +101,12 @@ def main(arguments: list[str]) -> int:
     for folder in given.folders:
         if not tables_below(folder):
             parser.error(f"{folder} has no tables; give a folder of results")
-    found = list(compare(*given.folders, given.tolerance))
-    for name, verdict, lines in found:
+    comparisons = list(compare(*given.folders, given.tolerance))
+    for name, verdict, lines in comparisons:
         if verdict != EQUAL:
             print("\n    ".join([f"{name}: {verdict}", *lines]))
-    counts = pd.Series([verdict for _, verdict, _ in found]).value_counts()
-    print(f"{len(found)} tables: {', '.join(f'{count} {verdict}' for verdict, count in counts.items())}")
+    counts = pd.Series([verdict for _, verdict, _ in comparisons]).value_counts()
+    print(f"{len(comparisons)} tables: {', '.join(f'{count} {verdict}' for verdict, count in counts.items())}")
     return int(DIFFERENT in counts)
 
 

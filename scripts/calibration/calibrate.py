@@ -80,16 +80,16 @@ def calibrate(
     """The columns of the tables of parameters, of samples, of the fit and of alternatives, from measurements."""
     data = data_of(measured, settings["model"])
     options = {"threads": threads, "progress": progress}
-    found = search(data, settings, **options)
-    alternatives = compare_alternatives(found, data, settings, **options)
-    fit = check_fit(found, data, settings, **options)
+    posterior = search(data, settings, **options)
+    alternatives = compare_alternatives(posterior, data, settings, **options)
+    fit = check_fit(posterior, data, settings, **options)
     fit["explained"] &= not any(row["preferred"] for row in alternatives)
-    chosen = draw(found, settings["samples"])
-    values = values_at(found.points[chosen], settings)
+    chosen = draw(posterior, settings["samples"])
+    values = values_at(posterior.points[chosen], settings)
     others = {name: np.full(len(chosen), value) for name, value in settings["model"].items() if name in CALIBRATED}
     return {
-        "parameters": fields.columns(summarize_parameters(found, settings), TABLES["parameters"]),
-        "samples": {**others, **values, "log_likelihood": found.log_density[chosen]},
+        "parameters": fields.columns(summarize_parameters(posterior, settings), TABLES["parameters"]),
+        "samples": {**others, **values, "log_likelihood": posterior.log_density[chosen]},
         "fit": fit,
         "alternatives": fields.columns(alternatives, TABLES["alternatives"]),
     }

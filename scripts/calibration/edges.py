@@ -86,7 +86,7 @@ def find_edges(
         low[inside[first]] = amplitudes[inside[first]]
         high[inside[~first]] = amplitudes[inside[~first]]
         inside = inside[first]
-    todo = found = np.flatnonzero(np.isfinite(low + high))
+    todo = bracketed = np.flatnonzero(np.isfinite(low + high))
     while len(todo):
         bisect(todo)
         above = high[todo, None] + further
@@ -96,7 +96,7 @@ def find_edges(
         low[todo] = np.where(back, above, -np.inf).max(axis=1, initial=-np.inf)
         high[todo] = low[todo] + further[0]
     middle = np.full(n, np.nan)
-    middle[found] = 0.5 * (low + high)[found]
+    middle[bracketed] = 0.5 * (low + high)[bracketed]
     return middle
 
 

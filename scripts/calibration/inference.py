@@ -131,9 +131,9 @@ def summary_of(posterior: Sample, weights: np.ndarray, settings: dict) -> np.nda
     def columns(points: np.ndarray) -> list[np.ndarray]:
         return [log(one) if name in LOGARITHMIC else one for name, one in values_at(points, settings).items()]
 
-    found = summarize(columns(posterior.points), weights)
-    found[:, 0] = np.concatenate(columns(centre(posterior.points, weights)[None]))
-    return found
+    summary = summarize(columns(posterior.points), weights)
+    summary[:, 0] = np.concatenate(columns(centre(posterior.points, weights)[None]))
+    return summary
 
 
 def errors(posterior: Sample, settings: dict) -> np.ndarray:
@@ -177,14 +177,14 @@ def summarize_parameters(posterior: Sample, settings: dict) -> list[dict]:
         if name != "damping":
             low, high = max(low, range_low), min(high, range_high)
         low, high = min(low, best), max(high, best)
-        found = with_errors(np.array([best, low, high]), deviations[column], is_log)
+        numbers = with_errors(np.array([best, low, high]), deviations[column], is_log)
         if not reliable:
-            found |= dict.fromkeys(("low", "low_error", "high", "high_error"), math.nan)
+            numbers |= dict.fromkeys(("low", "low_error", "high", "high_error"), math.nan)
         rows.append(
             {
                 "parameter": name,
                 "unit": UNITS[name],
-                **found,
+                **numbers,
                 "range_low": range_low,
                 "range_high": range_high,
                 "status": status if reliable else TOO_FEW,

@@ -92,10 +92,10 @@ def differs(measured: Measurement, model: dict) -> bool:
     return any(model.get(name) != value for name, value in measured.changed.items())
 
 
-def check_fit(found: Sample, data: Data, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
+def check_fit(posterior: Sample, data: Data, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
     """The columns of the table of the fit."""
-    drawn = found.points[draw(found, settings["checked"])]
-    values = values_at(np.vstack([centre(found.points, found.weights), drawn]), settings)
+    drawn = posterior.points[draw(posterior, settings["checked"])]
+    values = values_at(np.vstack([centre(posterior.points, posterior.weights), drawn]), settings)
     options = {"parts": 2 * settings["checked_parts"], "seed": settings["seed"] + settings["rounds"] + 1}
     progress = progress and f"{progress}: check"
     followed = velocities(values, data.conditions, settings, **options, threads=threads, progress=progress)
@@ -121,7 +121,7 @@ def check_fit(found: Sample, data: Data, settings: dict, *, threads: int = 1, pr
 
 
 def compare_alternatives(
-    found: Sample, data: Data, settings: dict, *, threads: int = 1, progress: str | None = None
+    posterior: Sample, data: Data, settings: dict, *, threads: int = 1, progress: str | None = None
 ) -> list[dict]:
     """The rows of the table of alternatives: the posterior with one more parameter, against the one without."""
     stated = {*settings["ranges"], *(name for one in data.measured for name in one.changed)}
@@ -135,13 +135,13 @@ def compare_alternatives(
         # An evidence needs fewer samples than intervals. A search that has not found them underestimates it.
         own |= {"enough": settings["effective"], "rounds": (settings["rounds"] + 1) // 2}
         near = None
-        if found.size >= LEAST * len(settings["ranges"]):
+        if posterior.size >= LEAST * len(settings["ranges"]):
             # What is found without the alternative shows where to begin, with any value of it.
-            known = found.points[draw(found, settings["samples"])]
+            known = posterior.points[draw(posterior, settings["samples"])]
             near = np.column_stack([known, random.uniform(*ends, len(known))])
         label = progress and f"{progress}: {name.replace('_', ' ')}"
         other = search(data, own, near=near, searches=SEARCHES_OF_ALTERNATIVE, threads=threads, progress=label)
-        gain = other.log_evidence - found.log_evidence
+        gain = other.log_evidence - posterior.log_evidence
         rows.append(
             {
                 "parameter": name,

@@ -125,7 +125,7 @@ def converged_velocities(rows: np.ndarray) -> np.ndarray:
     return (x[:, 1] - x[:, 0]) / (LAST * DURATION)
 
 
-def parameters_of_both_states(parameters: np.ndarray, found: Curve, interval: list[float], inside: float) -> np.ndarray:
+def parameters_of_both_states(parameters: np.ndarray, curve: Curve, interval: list[float], inside: float) -> np.ndarray:
     """Parameter vectors that lead to each state at both ends of the interval of Fig. 9: shape (n, 2, 2).
 
     The axes after the first one are state and end. If both states do not coexist at an end, the nearest amplitude at
@@ -133,27 +133,27 @@ def parameters_of_both_states(parameters: np.ndarray, found: Curve, interval: li
     the middle of the heights that lead to it; the initial height of the second state is the height of the lowest edge.
     """
     low, high = interval
-    low = np.maximum(low, found.amplitudes.min(axis=1) + inside)
-    high = np.minimum(high, found.amplitudes.max(axis=1) - inside)
+    low = np.maximum(low, curve.amplitudes.min(axis=1) + inside)
+    high = np.minimum(high, curve.amplitudes.max(axis=1) - inside)
     rows = np.tile(parameters[:, None, None], (1, 2, 2))
     rows["acceleration"][..., 0], rows["acceleration"][..., 1] = low[:, None], high[:, None]
-    rows["z0"][:, 0] = 0.5 * found.critical_height(np.stack([low, high], axis=1))
-    rows["z0"][:, 1] = found.heights[found.amplitudes.argmin(axis=1)][:, None]
+    rows["z0"][:, 0] = 0.5 * curve.critical_height(np.stack([low, high], axis=1))
+    rows["z0"][:, 1] = curve.heights[curve.amplitudes.argmin(axis=1)][:, None]
     return rows
 
 
-def changes_of_state(found: Curve, measured: dict, step: float) -> dict[str, np.ndarray]:
+def changes_of_state(curve: Curve, measured: dict, step: float) -> dict[str, np.ndarray]:
     """Amplitudes and heights of changes of state, by CLAIM.QUANTITY, each of shape (n,), in the claims' units."""
-    fig_8, fig_11 = (found.at(np.linspace(*measured[name])) for name in ("starts", "moved_starts"))
+    fig_8, fig_11 = (curve.at(np.linspace(*measured[name])) for name in ("starts", "moved_starts"))
     low, high = measured["interval"]
     # The critical height is largest at the lower end of the interval, or where the second state begins above it. It
     # hardly depends on the amplitude there; the slope of Eq. 13 is added so that a search moves to the paper's value.
-    lowest = np.maximum(low, found.amplitudes.min(axis=1))
+    lowest = np.maximum(low, curve.amplitudes.min(axis=1))
     triple = Hyperbola(**measured["triple"])
     missing = triple.A / (triple.B + low) ** 2 * (lowest - low)
     given, fitted = list(measured["critical"].values()), np.linspace(low, high, round((high - low) / step) + 1)
     amplitudes = np.tile([*given, *fitted], (len(lowest), 1))
-    heights = found.critical_height(np.column_stack([lowest, amplitudes]))
+    heights = curve.critical_height(np.column_stack([lowest, amplitudes]))
     return {
         "C01.critical_amplitude": fig_8[:, 0],
         "C02.lower_end": fig_8.min(axis=1),
@@ -181,11 +181,11 @@ def measure(
     measured = settings["measured"]
     fine = np.linspace(HEIGHTS[0], HEIGHTS[-1], FINE)
     splines = CubicSpline(HEIGHTS, edges, axis=1)
-    found = Curve(fine, splines(fine) / sin(parameters["angle"])[:, None])
-    changes = changes_of_state(found, measured, INSIDE)
+    curve = Curve(fine, splines(fine) / sin(parameters["angle"])[:, None])
+    changes = changes_of_state(curve, measured, INSIDE)
     if follow is None:
         return changes
-    rows = parameters_of_both_states(parameters, found, measured["interval"], INSIDE)
+    rows = parameters_of_both_states(parameters, curve, measured["interval"], INSIDE)
     first, second = np.moveaxis(CM * follow(rows.ravel()).reshape(rows.shape), 1, 0)
     return changes | {
         "C05.velocity_at_lower_end": first[:, 0],

@@ -100,9 +100,9 @@ ROUNDED = 6
 Quantities = Callable[[np.ndarray, str, bool], dict[str, np.ndarray]]
 
 
-def number_rows(name: str, found: dict[str, np.ndarray], numbers: dict[str, dict]) -> pd.DataFrame:
+def number_rows(name: str, quantities: dict[str, np.ndarray], numbers: dict[str, dict]) -> pd.DataFrame:
     """Rows of the table of numbers, from quantities of shape (1,)."""
-    values = {number: float(found[number][0]) for number in numbers}
+    values = {number: float(quantities[number][0]) for number in numbers}
     misfits = [float(misfit(value, numbers[number])) for number, value in values.items()]
     return pd.DataFrame({"set": name, "number": list(values), "value": list(values.values()), "misfit": misfits})
 
@@ -123,8 +123,8 @@ def infer(
     bounds = bounds_of(settings, PARAMETERS)
     numbers = {name: one for name, one in settings["numbers"].items() if name not in evidence["without"]}
 
-    def total(found: dict[str, np.ndarray]) -> np.ndarray:
-        moved = {name: value + shifts.get(name, 0.0) for name, value in found.items() if name in numbers}
+    def total(predicted: dict[str, np.ndarray]) -> np.ndarray:
+        moved = {name: value + shifts.get(name, 0.0) for name, value in predicted.items() if name in numbers}
         return sum(misfit(value, numbers[name]).round(ROUNDED) ** 2 for name, value in moved.items())
 
     def of_states(y: np.ndarray, tension: str) -> np.ndarray:
@@ -133,16 +133,16 @@ def infer(
 
     points, followed = (round(settings["effort"] * count) // SEARCHES for count in (POINTS, FOLLOWED))
     search = {"first": points, "points": points, "rounds": ROUNDS, "enough": math.inf, "widths": EXACT}
-    found = {
+    posteriors = {
         (tension, number): sample(partial(of_states, tension=tension), bounds[:, 1:], **search, seed=[seed, number])
         for tension in VERTICAL
         for number in range(SEARCHES)
     }
-    least = min(-2.0 * one.log_density.max() for one in found.values())
+    least = min(-2.0 * one.log_density.max() for one in posteriors.values())
     scale = max(least / (len(numbers) - len(PARAMETERS)), 1.0)
     random = np.random.default_rng(seed)
     samples, fits = [], []
-    for (tension, number), states in found.items():
+    for (tension, number), states in posteriors.items():
         # All errors are scaled up: the density is raised to the power 1/scale. Some weights have underflowed to zero.
         kept = np.flatnonzero(states.weights)
         logs = log(states.weights[kept]) + states.log_density[kept] * (1.0 / scale - 1.0)
@@ -193,8 +193,8 @@ def interval_rows(samples: pd.DataFrame, settings: dict) -> pd.DataFrame:
     if effective_number(weights) >= ENOUGH:
         values, errors = exp(summary(weights)), monte_carlo_error(weights, samples.search.to_numpy(), summary)
     rows = []
-    for name, *found in zip(PARAMETERS, values, errors, strict=True):
-        row = {"parameter": name, **with_errors(*found, is_log=True)}
+    for name, *numbers in zip(PARAMETERS, values, errors, strict=True):
+        row = {"parameter": name, **with_errors(*numbers, is_log=True)}
         row["open_low"], row["open_high"] = open_ends(logs[name], weights, bounds[name])
         rows.append(row | {"covered": math.log(row["high"] / row["low"]) / np.ptp(bounds[name])})
     return pd.DataFrame(rows)
@@ -212,15 +212,15 @@ def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, 
     at_printed = {method: claims.measure_directly(printed, method, settings, threads) for method in (EULER, CONVERGED)}
     shifts = {name: float(at_printed[EULER][name][0] - at_printed[CONVERGED][name][0]) for name in numbers}
     at_printed["interpolated"] = quantities(printed, model["tension"])
-    rows = [number_rows(name, found, numbers) for name, found in at_printed.items()]
+    rows = [number_rows(name, values, numbers) for name, values in at_printed.items()]
     tables: dict[str, list[pd.DataFrame]] = {"fits": [], "intervals": [], "samples": []}
     for name, evidence in EVIDENCE.items():
         samples, fits = infer(evidence, shifts if evidence["shifted"] else {}, quantities, settings)
         best = fits.loc[fits.total.idxmin()]
         at_best = quantities(searched(settings, **best[list(PARAMETERS)]), best.tension)
         rows.append(number_rows(name, at_best, numbers))
-        found = {"samples": samples, "fits": fits, "intervals": interval_rows(samples, settings)}
-        for kind, table in found.items():
+        of_evidence = {"samples": samples, "fits": fits, "intervals": interval_rows(samples, settings)}
+        for kind, table in of_evidence.items():
             tables[kind].append(table.assign(evidence=name))
     grid = np.tile(printed, (FRICTIONS, 1))
     grid[:, 0] = log(np.linspace(*settings["ranges"]["friction"], FRICTIONS))

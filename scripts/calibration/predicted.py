@@ -122,12 +122,12 @@ def velocities(
     first = parts if worth is None else min(FIRST, parts)
     sets, of = np.indices((n, k)).reshape(2, -1)
     few = follow(sets, of, 0, first, "").reshape(n, k, first)
-    found = np.tile(few, -(-parts // first))[..., :parts]
+    means = np.tile(few, -(-parts // first))[..., :parts]
     if first < parts:
         chosen = np.flatnonzero(worth(few))
         sets, of = np.repeat(chosen, k), np.tile(np.arange(k), len(chosen))
-        found[chosen, :, first:] = follow(sets, of, first, parts, ", more parts").reshape(-1, k, parts - first)
-    return found
+        means[chosen, :, first:] = follow(sets, of, first, parts, ", more parts").reshape(-1, k, parts - first)
+    return means
 
 
 def mean_velocities(rows: np.ndarray, times: np.ndarray, threads: int, progress: str | None) -> np.ndarray:
@@ -154,9 +154,9 @@ def widths(velocities: np.ndarray) -> np.ndarray:
         distance = np.fmin(distance, spans)
     variance = np.ma.masked_invalid(velocities).var(axis=-1, keepdims=True).filled(np.nan)
     most = OF_ALL * np.sqrt(variance)
-    found = np.empty_like(velocities)
-    np.put_along_axis(found, order, np.minimum(WIDENED * distance, most), axis=-1)
-    return found
+    deviations = np.empty_like(velocities)
+    np.put_along_axis(deviations, order, np.minimum(WIDENED * distance, most), axis=-1)
+    return deviations
 
 
 def deviations(velocities: np.ndarray, sd: np.ndarray, plate: np.ndarray, noise: float) -> np.ndarray:

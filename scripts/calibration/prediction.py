@@ -47,27 +47,27 @@ BEYOND = 0.2  # relative distance beyond the measured amplitudes within which th
 
 
 def expected_narrowing(
-    found: np.ndarray, values: np.ndarray, plate: float, settings: dict, random: np.random.Generator
+    simulated: np.ndarray, values: np.ndarray, plate: float, settings: dict, random: np.random.Generator
 ) -> np.ndarray:
     """Expected narrowing of the interval of each parameter by one velocity, shape (d,).
 
     Parameters
     ----------
-    found : velocities of the parts of each sample, m/s, shape (n, parts)
+    simulated : velocities of the parts of each sample, m/s, shape (n, parts)
     values : searched parameters, or their logarithms, shape (n, d)
     plate : largest velocity of the plate along the track, m/s
     """
-    found = np.where(np.isnan(found), 0.0, found)
-    n, parts = found.shape
+    simulated = np.where(np.isnan(simulated), 0.0, simulated)
+    n, parts = simulated.shape
     place = random.permutation(n * parts)[:POSSIBLE]
     sample, part = np.divmod(place, parts)
-    true, none = found[sample, part], np.array(math.nan)
+    true, none = simulated[sample, part], np.array(math.nan)
     result = true + random.standard_normal(len(true)) * deviations(true, none, np.array(plate), settings["noise"])
     measured = np.repeat(result[:, None], n, axis=1)  # rows of possible results, columns of samples
     unknown, plates = np.full(n, math.nan), np.full(n, plate)
-    logs = log_densities(measured, found, unknown, plates, settings)
+    logs = log_densities(measured, simulated, unknown, plates, settings)
     # The part that gave a result must not count as evidence for its own sample.
-    others = np.array([np.delete(found[s], p) for s, p in zip(sample, part, strict=True)])
+    others = np.array([np.delete(simulated[s], p) for s, p in zip(sample, part, strict=True)])
     rows = np.arange(len(result))
     one = np.full(len(result), math.nan), np.full(len(result), plate)
     logs[rows, sample] = log_densities(result, others, *one, settings)
@@ -111,19 +111,19 @@ def predict(
     chosen = samples.iloc[np.linspace(0, len(samples) - 1, settings["predicted"]).round().astype(int)]
     values = {name: chosen[name].to_numpy() for name in settings["ranges"]}
     options = {"parts": settings["predicted_parts"], "seed": settings["seed"], "threads": threads}
-    found = velocities(values, conditions, settings, **options, progress=progress)
+    simulated = velocities(values, conditions, settings, **options, progress=progress)
     random = np.random.default_rng(settings["seed"])
     columns = np.column_stack([log(one) if name in LOGARITHMIC else one for name, one in values.items()])
     columns = columns + 1e-12 * random.standard_normal(columns.shape)  # equal samples have no standard deviation
     gains = np.array(
         [
-            expected_narrowing(found[:, place], columns, conditions.plate[place], settings, random)
+            expected_narrowing(simulated[:, place], columns, conditions.plate[place], settings, random)
             for place in range(len(amplitudes))
         ]
     )
     quantiles = np.array(
         [
-            np.nanquantile(found[:, max(place - 1, 0) : min(place + 2, len(between))], ENDS)
+            np.nanquantile(simulated[:, max(place - 1, 0) : min(place + 2, len(between))], ENDS)
             for place in range(len(between))
         ]
     ).T

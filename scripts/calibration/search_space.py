@@ -28,19 +28,19 @@ def values_at(
     coordinates: np.ndarray, settings: dict, logarithmic: Collection[str] = LOGARITHMIC
 ) -> dict[str, np.ndarray]:
     """Values of the searched parameters of the model, each of shape (n,), at coordinates, shape (n, d)."""
-    found = {
+    values = {
         name: exp(column) if name in logarithmic else column
         for name, column in zip(settings["ranges"], coordinates.T, strict=True)
     }
     rows = np.full(len(coordinates), grid.row_of(settings["model"]))
-    set_parameters(rows, {name: found[name] for name in ("exponent", "inclination") if name in found})
+    set_parameters(rows, {name: values[name] for name in ("exponent", "inclination") if name in values})
     group, loss = groups_of_contact(rows["stiffness"], rows["damping"], rows)
-    contact = contact_of_groups(found.get("stiffness", group), found.get("damping", loss), rows)
-    return found | {name: one for name, one in zip(("stiffness", "damping"), contact, strict=True) if name in found}
+    contact = contact_of_groups(values.get("stiffness", group), values.get("damping", loss), rows)
+    return values | {name: one for name, one in zip(("stiffness", "damping"), contact, strict=True) if name in values}
 
 
 def coordinates_of(model: dict, settings: dict, logarithmic: Collection[str] = LOGARITHMIC) -> np.ndarray:
     """The coordinates of a complete model, shape (1, d)."""
     group, loss = groups_of_contact(model["stiffness"], model["damping"], grid.row_of(model))
-    found = {**model, "stiffness": group, "damping": loss}
-    return np.array([[log(found[name]) if name in logarithmic else found[name] for name in settings["ranges"]]])
+    values = {**model, "stiffness": group, "damping": loss}
+    return np.array([[log(values[name]) if name in logarithmic else values[name] for name in settings["ranges"]]])

@@ -94,8 +94,8 @@ def gain_of_distant(samples: pd.DataFrame, best: dict, true: dict, data: Data, s
         return math.nan
     chosen = distant.iloc[np.linspace(0, len(distant) - 1, COMPARED).round().astype(int)]
     values = {name: np.append(true[name], chosen[name]) for name in PARAMETERS}
-    found = velocities(values, data.conditions, settings, parts=MANY, seed=settings["seed"], threads=threads)
-    arguments = (data.velocity, found[:, data.of], data.sd, data.plate, settings)
+    simulated = velocities(values, data.conditions, settings, parts=MANY, seed=settings["seed"], threads=threads)
+    arguments = (data.velocity, simulated[:, data.of], data.sd, data.plate, settings)
     of_true, *others = log_densities(*arguments, spread=np.zeros(())).sum(axis=1)
     return float(max(others) - of_true)
 
@@ -123,8 +123,8 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
         return parse(csv_text(pairs, "synthetic", duration=DURATION, before=DURATION), "synthetic", own, RANGES), own
 
     measured, own = as_stated(stated, factor)
-    found = calibrate(measured, own, threads=threads, progress=progress)
-    samples, fit = (pd.DataFrame(found[name]) for name in ("samples", "fit"))
+    tables = calibrate(measured, own, threads=threads, progress=progress)
+    samples, fit = (pd.DataFrame(tables[name]) for name in ("samples", "fit"))
     band = prediction.predict(samples, fit, own | BAND, beyond=0.0, threads=threads, progress=progress)["prediction"]
     held = random.uniform(amplitudes[0], amplitudes[-1], HELD_OUT)
     velocity = np.array([true_velocity(real, one, box, random) for one in held])
@@ -132,13 +132,13 @@ def make(settings: dict, kind: str, number: int, *, threads: int = 1, progress: 
     row = {name: stated[name] for name in ("frequency", "angle", "mass")}
     row |= {"number": number, "kind": kind, "measurements": len(rows)}
     for name, best, below, above in zip(
-        *(found["parameters"][key] for key in ("parameter", "best", "low", "high")), strict=True
+        *(tables["parameters"][key] for key in ("parameter", "best", "low", "high")), strict=True
     ):
         row |= {name: real[name], f"{name}_best": best, f"{name}_low": below, f"{name}_high": above}
-    gains = zip(*(found["alternatives"][key] for key in ("log_bayes_factor", "parameter")), strict=True)
+    gains = zip(*(tables["alternatives"][key] for key in ("log_bayes_factor", "parameter")), strict=True)
     row["log_bayes_factor"], row["alternative"] = max(gains, default=(-math.inf, ""))
     row |= {"in_band": float(np.mean((low <= velocity) & (velocity <= high)))}
-    row |= {"p_value": float(fit.p_value.iloc[0]), "effective": found["parameters"]["effective"][0]}
+    row |= {"p_value": float(fit.p_value.iloc[0]), "effective": tables["parameters"]["effective"][0]}
     if kind in RIGHT:
         best = {name: row[f"{name}_best"] for name in PARAMETERS}
         row["gain_of_distant"] = gain_of_distant(samples, best, real, data_of(measured, own["model"]), own, threads)

@@ -48,8 +48,8 @@ TABLES = {
 
 def make(rows: list[str]) -> dict[str, list]:
     """The columns of the table from the rows of all data sets, as JSON."""
-    found = [json.loads(row) for row in rows]
-    for row in found:
+    parsed = [json.loads(row) for row in rows]
+    for row in parsed:
         row |= {name: row.get(name) for name in ("gain_of_distant", "gain_of_truth")}
         row["explained"] = row["p_value"] >= SIGNIFICANCE and row["log_bayes_factor"] <= math.log(DECISIVE)
-    return fields.columns(found, TABLES["calibration_study"])
+    return fields.columns(parsed, TABLES["calibration_study"])

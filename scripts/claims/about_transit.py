@@ -25,9 +25,9 @@ def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame) -> Finding:
     chaotic, coexisting = (exponents(lengths, regime) for regime in (CHAOS, SEVERAL))
     farthest = max(chaotic.values(), key=lambda exponent: abs(exponent + 0.5), default=NONE)
     texts = [
-        f"{name} at {', '.join(f'{acceleration:g} m/s² ({exponent:.2f})' for acceleration, exponent in found.items())}"
-        for name, found in (("chaos", chaotic), ("coexisting motions", coexisting))
-        if found
+        f"{name} at {', '.join(f'{acceleration:g} m/s² ({exponent:.2f})' for acceleration, exponent in powers.items())}"
+        for name, powers in (("chaos", chaotic), ("coexisting motions", coexisting))
+        if powers
     ]
     note = f"Exponents of the spread: {' and '.join(texts)}" if texts else "No exponent of the spread is known"
     if len(known):

@@ -95,14 +95,14 @@ def first_fit(time: np.ndarray, signals: np.ndarray, orders: int = CHECKED_ORDER
     def fitted(guess: float) -> Fit:
         return fit(time, signals, guess, min(orders, orders_of(rate, guess)))
 
-    found = fitted(strongest(time, signals)[0])
-    other = further_line(time, found)
+    model = fitted(strongest(time, signals)[0])
+    other = further_line(time, model)
     # The strongest line may be a harmonic of a weaker fundamental.
     for order in range(2, MOST_SUBHARMONIC + 1) if other else ():
-        if abs(order * other[0] - found.frequency) < 1.0 / duration_of(time):
-            found = fitted(found.frequency / order)
-            return found, further_line(time, found)
-    return found, other
+        if abs(order * other[0] - model.frequency) < 1.0 / duration_of(time):
+            model = fitted(model.frequency / order)
+            return model, further_line(time, model)
+    return model, other
 
 
 def unit_faults(acceleration: float, frequency: float, offsets: np.ndarray, unit: str) -> Iterator[str]:

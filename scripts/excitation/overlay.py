@@ -10,12 +10,12 @@ DIGITS = 6
 
 def harmonics_above_noise(harmonics: pd.DataFrame) -> list[dict[str, float]]:
     """The harmonics for `model.harmonics`, at most MOST_HARMONICS, the largest ones; a share below the noise is 0."""
-    found = []
+    rows = []
     for row in harmonics[harmonics.above_noise].to_dict("records"):
         kept = {name: row[name] if row[f"{name.split('_')[0]}_above_noise"] else 0.0 for name in SHARES}
-        found.append({"order": row["order"], **{name: float(f"{value:.{DIGITS}g}") for name, value in kept.items()}})
-    found.sort(key=lambda one: -max(one["along"], one["normal"]))
-    return sorted(found[:MOST_HARMONICS], key=lambda one: one["order"])
+        rows.append({"order": row["order"], **{name: float(f"{value:.{DIGITS}g}") for name, value in kept.items()}})
+    rows.sort(key=lambda one: -max(one["along"], one["normal"]))
+    return sorted(rows[:MOST_HARMONICS], key=lambda one: one["order"])
 
 
 def drive_of(parameters: pd.DataFrame) -> dict[str, float]:

@@ -142,10 +142,10 @@ def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *
 def describe_states(shares: pd.DataFrame, acceleration: float) -> dict[str, str | float]:
     """The states at the nearest amplitude of the table of shares, "chaos 85 %, second 15 %", and that amplitude."""
     nearest = shares.acceleration.iloc[(shares.acceleration - acceleration).abs().argmin()]
-    found = (
+    by_state = (
         shares[shares.acceleration == nearest].groupby("state").share.sum().sort_values(ascending=False, kind="stable")
     )
-    states = ", ".join(f"{state} {round(100.0 * share, 1):g} %" for state, share in found.items())
+    states = ", ".join(f"{state} {round(100.0 * share, 1):g} %" for state, share in by_state.items())
     return {"states": states, "states_acceleration": nearest}
 
 

@@ -272,7 +272,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     )
     history = [
         {"seed": seed, "generation": number, "hypervolume": volume / whole if whole else 0.0}
-        for seed, found in fronts.items()
-        for number, volume in enumerate(found.volumes, start=1)
+        for seed, one in fronts.items()
+        for number, volume in enumerate(one.volumes, start=1)
     ]
     return {"drive_front": check(front, settings, threads=threads), "drive_generations": pd.DataFrame(history)}

@@ -70,11 +70,11 @@ def direct_imports(file: Path, root: Path, own: str = "") -> tuple[frozenset[Pat
     files, packages = set(), set()
     for module, name in imported_names(file, root):
         top = module.split(".")[0]
-        found = None
+        source = None
         if own in ("", top):
-            found = file_of(module, name, root)
-        if found:
-            files.add(found)
+            source = file_of(module, name, root)
+        if source:
+            files.add(source)
         else:
             packages.add(top)
     return frozenset(files), frozenset(packages)

@@ -61,16 +61,16 @@ def versions(packages: Iterable[str]) -> list[str]:
 
     Any of them may change a number or a picture. The version of Python stands for the standard library.
     """
-    found = {f"python=={platform.python_version()}"}
+    lines = {f"python=={platform.python_version()}"}
     for package in packages:
         if package in sys.stdlib_module_names:
             continue
         names = providers(package)
         for name in [*names, *(behind for one in names for behind in BEHIND.get(one, ()))]:
-            found.add(f"{name}=={version(name)}")
+            lines.add(f"{name}=={version(name)}")
         if not names:
-            found.add(f"{package}: none")
-    return sorted(found)
+            lines.add(f"{package}: none")
+    return sorted(lines)
 
 
 @cache

@@ -16,7 +16,7 @@ def format_change(least: float, most: float) -> str:
 
 def numbers(*, converged: pd.DataFrame, fit: pd.DataFrame | None = None, euler: pd.DataFrame | None = None) -> dict:
     lowest, highest = ends_of(converged.attrs["scan"])
-    found = {
+    values = {
         "found": converged.is_critical.any(),
         "fitted": fit is not None and len(fit) > 0,
         "returns": (~converged.is_critical & (converged.state_above == "first")).any(),
@@ -29,9 +29,9 @@ def numbers(*, converged: pd.DataFrame, fit: pd.DataFrame | None = None, euler: 
         "aside": None,
     }
     if euler is None:
-        return found
+        return values
     both = [edge[edge.is_critical].set_index("acceleration").z0 for edge in (euler, converged)]
     change = 100.0 * (both[0] / both[1] - 1.0).dropna()
     if change.empty:
-        return found
-    return found | {"aside": format_change(change.max(), change.min()), "most_at": change.idxmin()}
+        return values
+    return values | {"aside": format_change(change.max(), change.min()), "most_at": change.idxmin()}
