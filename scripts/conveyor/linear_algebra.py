@@ -6,6 +6,8 @@ fast enough for matrices of a few dozen rows.
 """
 
 import cmath
+from collections.abc import Iterable
+from functools import reduce
 
 import numpy as np
 
@@ -27,6 +29,11 @@ def product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     if a.ndim == 1:
         return np.sum(a[:, None] * b, axis=-2)
     return np.sum(a[..., :, :, None] * b[..., None, :, :], axis=-2)
+
+
+def chain(matrices: Iterable[np.ndarray]) -> np.ndarray:
+    """The product of matrices in the order in which they act: the last one stands leftmost."""
+    return reduce(lambda whole, following: product(following, whole), matrices)
 
 
 def determinant(matrix: np.ndarray) -> np.ndarray:

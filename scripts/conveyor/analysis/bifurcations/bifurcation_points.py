@@ -9,7 +9,6 @@ Pⁿ(0) = 0. Difference quotients give the derivatives of these functions.
 """
 
 import math
-from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -63,7 +62,7 @@ def linearise(groups: Groups, state: np.ndarray, period: int, psi0: float = 0.0)
     status, matrices, features = stroboscopic_map.monodromy(packed(groups, psi0), TOLERANCE, here, period, 0.0)
     if status != OK:
         return None
-    matrix = reduce(lambda whole, following: linear_algebra.product(following, whole), matrices)
+    matrix = linear_algebra.chain(matrices)
     return Linearisation(y_for_velocity(groups, here), matrix, int(features[:, stroboscopic_map.IMPACTS].sum()))
 
 

@@ -5,7 +5,6 @@ An orbit of period n is a fixed point of the n-th power of the stroboscopic map 
 
 import cmath
 from collections.abc import Iterable
-from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -95,7 +94,7 @@ class ReturnMap:
     def residual(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """P(X) - X, shape (2,), and its derivative by (δ, Y), shape (2, 2), scaled."""
         image, matrices, _ = self.linearised(unknown)
-        matrix = reduce(lambda whole, following: linear_algebra.product(following, whole), matrices)
+        matrix = linear_algebra.chain(matrices)
         return image - unknown[:2], matrix * self.unit[:2] / self.unit[:2, None] - np.eye(2)
 
     def slope(self, unknown: np.ndarray) -> np.ndarray:
@@ -134,7 +133,7 @@ class ReturnMap:
         _, _, features = self.linearised(unknown)
         # The period may begin in the flight in which it ends.
         _, matrices, features = self.linearised(unknown, features[-1, stroboscopic_map.AIRBORNE])
-        matrix = reduce(lambda whole, following: linear_algebra.product(following, whole), matrices)
+        matrix = linear_algebra.chain(matrices)
         # The trace formula of the flow gives determinants that are lost in rounding.
         hidden = [stroboscopic_map.hides_determinant(one) for one in matrices]
         contractions = np.exp(contact_law.log_contraction(self.constants, features[:, stroboscopic_map.DAMPER_TIME]))
