@@ -140,7 +140,7 @@ def sample_runs(
     ----------
     parameters : from `parameter_table`, shape (n,); they are not checked
     times : s, ascending, shape (n, k)
-    columns : those of the samples that are wanted, among x, z (m), vx, vz (m/s), contact_force, friction_force (N);
+    columns : the wanted samples, among x, z (m), vx, vz (m/s), contact_force, friction_force (N);
         without x, vx and friction_force the horizontal motion is not followed
     method, tolerance, step, reuse : as in `simulate`
     threads, chunk, progress : as in `sweep`
@@ -224,13 +224,13 @@ def transits(
     parameters : from `parameter_table`, shape (n,)
     lengths : of the tracks, m, ascending, shape (k,)
     longest : longest time on each track, s, ascending, shape (k,)
-    begin : time (s), at most the first of `longest`, from which impacts and forces count on a single track, shape (n,)
+    begin : time (s) from which impacts and forces count, at most the first of `longest`, a number or of shape (n,)
     tolerance, threads, progress : as in `sweep`
 
     Returns
     -------
     columns `arrival`, the time (s) at which a part has travelled each length for the first time, NaN if it is
-    late, shape (n, k); `velocity` (m/s), of late parts what they have travelled over the longest time, shape (n, k);
+    late, shape (n, k); `velocity` (m/s), for late parts their distance over the longest time, shape (n, k);
     `impact_speed` (m/s) and `peak_force` (N), the largest ones from `begin` on, NaN for parts that arrive earlier,
     shape (n,); `status`, shape (n,): "ok", or why the run ended early. Numbers of failed runs are NaN.
 

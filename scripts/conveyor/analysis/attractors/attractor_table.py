@@ -18,7 +18,7 @@ INITIAL_CONDITION = (PSI0, Z0, VZ0)
 
 
 def distinct_conveyors(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The conveyors of a table, each once, sorted, with phase and initial condition zero, and the number of each row's.
+    """The conveyors of a table, each once, sorted, with phase and initial condition zero; and the conveyor of each row.
 
     Examples
     --------
@@ -31,9 +31,9 @@ def distinct_conveyors(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def distinct_rows(parameters: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The conveyors of rows, shape (n, 16), sorted, shape (m, 16), and the number of each row's, int64, shape (n,).
+    """The conveyors of rows, shape (n, 16), each once, sorted, shape (m, 16); and the conveyor of each row, shape (n,).
 
-    The phases and initial conditions of the conveyors are zero.
+    The phases and initial conditions of the conveyors are zero. The conveyor of a row is its number among them, int64.
     """
     # In most ensembles rows of one conveyor follow each other; rows are slow to sort, and to copy.
     follows = np.arange(len(parameters)) > 0
@@ -97,7 +97,8 @@ class AttractorTable(NamedTuple):
     def rows_of(self, parameters: np.ndarray) -> np.ndarray:
         """Where the table holds the attractors of packed parameters, shape (n, 16): int64, shape (n, 4).
 
-        Each row has the first orbit of its conveyor, the one behind the last orbit, and the same of chaotic sets.
+        Each row has the number of its conveyor's first orbit and the number behind its last orbit, then the same two
+        numbers for its chaotic sets.
         """
         conveyors, index = distinct_rows(parameters)
         return np.hstack([find_places(table.conveyors, conveyors) for table in self])[index]

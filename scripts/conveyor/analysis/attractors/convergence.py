@@ -25,8 +25,8 @@ PERIODIC, IN_CHAOTIC_SET, NOT_CONVERGED, FAILED, GOES_ON = range(5)
 # flights in them (s).
 PAST = 2 * MAX_PERIOD
 DELTA, V, FLIGHTS = range(3)
-# Its counters, int64, shape (4,): cycles followed, the last period found, cycles for which it has held, cycles in a row
-# in chaotic sets.
+# The counters of a search, int64, shape (4,): cycles followed, the last candidate for a period, cycles for which it has
+# held, cycles in a row in chaotic sets.
 FOLLOWED, CANDIDATE, REPEATS, STAYED = range(4)
 # The cycles that a search has followed before its first whole cycle begins.
 BEFORE_FIRST_CYCLE = -1

@@ -17,7 +17,7 @@ from .attractor_table import NO_ATTRACTORS, AttractorTable
 from .convergence import Trajectories
 
 SAMPLES = 32
-SHORT_SEARCH = 400  # cycles in which most trajectories become periodic that do not end in chaos
+SHORT_SEARCH = 400  # cycles; most trajectories that do not end in chaos become periodic within them
 
 
 def sampled_initial_conditions(parameters: np.ndarray) -> np.ndarray:

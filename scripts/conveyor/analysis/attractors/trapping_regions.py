@@ -11,7 +11,6 @@ Without these regions, the labels of 10,000 initial conditions on the paper's co
 """
 
 import math
-from functools import reduce
 
 import numpy as np
 
@@ -40,13 +39,13 @@ FINE_GROWTH, LEAST_GROWTH, FINE_SHARE = 1.05, 1.3, 0.01
 # SLOWEST, checking a curve takes seconds.
 FASTEST, SLOW, SLOWEST = 1e-4, 0.98, 0.9995
 REFINEMENTS = 4  # steps of Newton's iteration
-FAR = 0.01  # in g/ω² and g/ω, farther than Newton's iteration moves to the orbit that it begins at
+FAR = 0.01  # in g/ω² and g/ω; if Newton's iteration moves farther than this, it has left the orbit
 LONGEST = 8  # excitation cycles, longest period of an orbit with a trapping region
 
 
 @compiled
 def comes_inside(parameters, tolerance, centre, factor, period, radius, inner, periods=PERIODS):
-    """Whether an ellipse about a point of an orbit, of the given `radius`, comes inside a smaller one.
+    """Whether the image of an ellipse of a `radius` around a point of an orbit comes inside a smaller ellipse.
 
     All points must be inside after the same number of periods. The curve is then inside if the distance between
     neighbouring points is smaller than the distance of each point from the smaller ellipse.
@@ -138,7 +137,7 @@ def linearise(parameters: np.ndarray, tolerance: float, point: np.ndarray, perio
     if status != OK:
         return None
     end = np.array([state[0], contact_law.smooth_speed(c, state[0], state[1])])
-    return end, reduce(lambda whole, following: linear_algebra.product(following, whole), matrices)
+    return end, linear_algebra.chain(matrices)
 
 
 def refine_orbit(
@@ -164,7 +163,7 @@ def refine_orbit(
 def find_trapping_region(
     parameters: np.ndarray, tolerance: float, state: np.ndarray, period: int, *, most: int
 ) -> tuple[tuple[np.ndarray, np.ndarray] | None, int]:
-    """The largest trapping region of a point of an orbit that at most about `most` excitation cycles show.
+    """The largest trapping region around a point of an orbit that a search of about `most` excitation cycles shows.
 
     parameters : float64, shape (16,), with the phase pieces.BEGIN_OF_CYCLE
     state : δ (m), v (m/s), shape (2,), at pieces.BEGIN_OF_CYCLE

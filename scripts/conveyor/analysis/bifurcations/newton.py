@@ -15,7 +15,7 @@ GROWTH = 1.3  # of the step after a success
 def difference_quotients(functions: Callable[[np.ndarray], np.ndarray], here: np.ndarray, step: float) -> np.ndarray:
     """Derivatives of k functions by n unknowns, by central differences of a step, shape (k, n).
 
-    Their error slows Newton's iteration a little, and changes no zero.
+    Their error slows Newton's iteration a little; the zero that it converges to stays the same.
     """
 
     def quotient(place):
@@ -47,7 +47,7 @@ def newton(
     converged : largest component of the last step
     iterations : after which the search gives up
     largest, farthest : the component of a step, and the distance from the guess, at which the search gives up
-    stagnant : a step below this that no longer shrinks is round-off, and ends the search
+    stagnant : a step below this that no longer shrinks is rounding, and ends the search
     """
     here, size = np.array(guess, dtype=np.float64), math.inf
     for _ in range(iterations):

@@ -26,8 +26,9 @@ from . import stretching
 
 # Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
 REPEATS_WITHIN = 400
-# A part that rides a stiff contact may never do that. Its motion counts as repeated, with a period of up to MAX_PERIOD
-# cycles, if it differs from itself by no more than ROUNDING, in g/ω² and g/ω, in each of the last WATCHED cycles.
+# A part that rides a stiff contact may never repeat itself bit for bit. Its motion counts as repeated, with a period of
+# up to MAX_PERIOD cycles, if each of the last WATCHED cycles differs from the one a period before by at most ROUNDING,
+# in g/ω² and g/ω.
 ROUNDING, WATCHED = 1e-13, 100
 # Excitation cycles after which the sign is decided. Weak chaos shows only after the second number.
 LOOKS = (400, 2000)

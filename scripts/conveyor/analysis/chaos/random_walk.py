@@ -16,7 +16,7 @@ from ...arguments import LARGEST_COORDINATE, check_array, check_time
 DECAYED = 0.05
 # The window is this many times longer than the shortest one without correlations, because they decay with its length.
 LONGER = 4
-LEAST_WINDOWS = 8  # of one run
+LEAST_WINDOWS = 8  # in one run
 DEFAULT_WINDOW = 2  # cycles, the shortest window: a motion that alternates between two bands has none in one cycle
 OK, CORRELATED, NO_FLUCTUATIONS = RANDOM_WALK_STATUS = ("ok", "correlations do not decay", "no fluctuations")
 
@@ -47,9 +47,10 @@ def standard_error(values: np.ndarray) -> float:
 
 
 def uncorrelated_window(fluctuations: np.ndarray) -> int:
-    """The shortest window from which on none has correlations, DEFAULT_WINDOW times a power of two; 0 if there is none.
+    """The shortest window above which displacements have no correlations; 0 for none.
 
-    In longer windows, correlations may come back: a displacement that is bounded has negative ones only there.
+    Only windows of DEFAULT_WINDOW times a power of two are tried. Correlations may come back in longer windows: a
+    bounded displacement has negative correlations only there.
 
     fluctuations : displacements in single cycles without their mean, shape (n, k)
     """

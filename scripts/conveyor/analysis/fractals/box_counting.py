@@ -18,7 +18,6 @@ PARTS = 3
 # Positions of each grid over which box counts are averaged, in boxes: a Fibonacci lattice. Because 13 is odd, doubling
 # only changes the order of the positions: nested grids have the same positions at each scale.
 SHIFTS = np.modf(np.arange(13)[:, None] * np.array([1.0, 8.0]) / 13.0)[0]
-DIGIT = 11  # bits of a digit of the sort; its 2048 counters fit into the processor's first cache
 
 
 class Samples(NamedTuple):
@@ -55,34 +54,6 @@ def boxes_of(points, size, across_shift, along_shift):
 
 
 @compiled
-def sort_keys(keys):
-    """Sort integers that are not negative, int64, shape (n,), digit by digit from the last one (radix sort).
-
-    It takes a sixth of the time of np.sort: 2.2 ms instead of 13 ms for 300,000 keys of 33 bits.
-    """
-    highest = keys.max()
-    digits = 0
-    while highest >> (DIGIT * digits):
-        digits += 1
-    places = np.zeros((digits, 1 << DIGIT), np.int64)
-    for key in keys:
-        for digit in range(digits):
-            places[digit, (key >> (DIGIT * digit)) & ((1 << DIGIT) - 1)] += 1
-    from_keys, to_keys = keys, np.empty_like(keys)
-    for digit in range(digits):
-        place = places[digit]
-        begin = 0
-        for value in range(len(place)):
-            begin, place[value] = begin + place[value], begin
-        for key in from_keys:
-            value = (key >> (DIGIT * digit)) & ((1 << DIGIT) - 1)
-            to_keys[place[value]] = key
-            place[value] += 1
-        from_keys, to_keys = to_keys, from_keys
-    return from_keys
-
-
-@compiled
 def count_sorted(keys, finest, step, totals):
     """Add the numbers of boxes that hold a point of each part to `totals`, int64, shape (PARTS, k).
 
@@ -105,19 +76,20 @@ def count_sorted(keys, finest, step, totals):
 def count_chain(samples: Samples, finest: int, shift: np.ndarray, totals: np.ndarray) -> None:
     """Add the numbers of boxes that hold a point of each part to `totals`, shape (PARTS, k), for a chain of grids.
 
-    Its scales are number `finest`, the one `step` before it, of twice the size, and so on; of the last and largest one
-    the grid is shifted by `shift` boxes.
+    The chain has the scales number `finest`, `finest` - `step`, `finest` - 2 `step`, …, each twice the one before. The
+    grid of the largest scale is shifted by `shift` boxes.
     """
     across, along = shift * 2.0 ** (finest // samples.step)
     boxes = boxes_of(samples.points, samples.scales[finest], across, along)
-    count_sorted(sort_keys(boxes << 2 | samples.halvings), finest, samples.step, totals)
+    count_sorted(np.sort(boxes << 2 | samples.halvings), finest, samples.step, totals)
 
 
 def box_counts(samples: Samples, shifts: np.ndarray, samples_per_box: float) -> np.ndarray:
     """Mean numbers of occupied boxes over shifted grids for all points and their parts, shape (PARTS, k).
 
-    Zero from the first scale on whose boxes hold fewer than `samples_per_box` samples that the finest scale tells
-    apart; in a part as many fewer as it is smaller.
+    Counts are zero from the scale on at which a box holds fewer than `samples_per_box` different samples on average.
+    In half of the points, half as many are enough, and in a quarter, a quarter. Samples in one box of the finest scale
+    count as one.
 
     shifts : float64, shape (s, 2), in boxes
     """
@@ -145,7 +117,7 @@ def box_dimension(points: np.ndarray) -> Dimension:
     Counts are means over shifted grids, which makes N(ε)ε² the area of the set dilated by a box of size ε. Boxes that
     stay empty because the sample is finite are extrapolated: counts of n, n/2 and n/4 points, drawn at random with a
     fixed seed, are continued as a geometric series (Aitken), by no more than their last increment. The slope of this
-    correction enters the error. Points with thin tails, such as normal ones, have boxes that are found too rarely for
+    correction enters the error. Normally distributed points, whose tails are thin, reach some boxes too rarely for
     this: their dimension comes out too small, by more than its error. Correlation sums do not need such boxes.
 
     Samples that repeat resolve nothing: sample a periodic orbit at times incommensurate with its period.

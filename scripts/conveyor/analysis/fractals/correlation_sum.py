@@ -9,8 +9,6 @@ from ...arguments import check_count
 from ...solver.jit import compiled
 from .scaling_region import SAMPLES_PER_BOX, SCALES, Dimension, normalise, scaling_region
 
-FRACTION = 48  # bits of a float that are left out; sixteen steps in each doubling remain
-
 
 @compiled
 def pair_counts(points, references, theiler, squares):
@@ -20,21 +18,12 @@ def pair_counts(points, references, theiler, squares):
     ----------
     points : float64, shape (n, 2)
     references : each (an index) is paired with all points that are more than `theiler` samples away
-    squares : of the radii, descending, shape (k,), no two of them within 6 % of each other
+    squares : of the radii, descending, shape (k,)
     """
-    # The first bits of a squared distance give the number of radii above it, up to one, which is compared with it. Of
-    # two floats that are not negative, the larger one has the larger bits.
-    shells, limits = len(squares), np.append(squares, -1.0)
-    bits_of_limits = squares.view(np.int64) >> FRACTION
-    lowest = bits_of_limits[-1]
-    shells_of = np.empty(bits_of_limits[0] - lowest + 1, np.int64)
-    for step in range(len(shells_of)):
-        shells_of[step] = np.sum(bits_of_limits - lowest > step)
+    shells, pairs = np.zeros(len(squares) + 1, np.int64), 0  # numbers of pairs between neighbouring radii
     n = len(points)
     x, y = points[:, 0].copy(), points[:, 1].copy()
-    counts, pairs = np.zeros(shells + 1, np.int64), 0
     apart, near = np.empty(n), np.empty(n)
-    bits = near.view(np.int64)
     for i in references:
         # A loop of its own, so that the processor computes several distances at a time.
         for j in range(n):
@@ -47,9 +36,11 @@ def pair_counts(points, references, theiler, squares):
             near[count] = apart[j]
             count += apart[j] < squares[0]
         for j in range(count):
-            shell = shells_of[max((bits[j] >> FRACTION) - lowest, 0)]
-            counts[shell + (near[j] < limits[shell])] += 1
-    return counts[:0:-1].cumsum()[::-1], pairs
+            shell = 0  # most pairs are in the first ones
+            while shell < len(squares) and near[j] < squares[shell]:
+                shell += 1
+            shells[shell] += 1
+    return shells[:0:-1].cumsum()[::-1], pairs
 
 
 MINIMUM_PAIRS = 1000  # closer than the smallest radius: 3 % noise

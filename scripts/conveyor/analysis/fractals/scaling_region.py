@@ -2,7 +2,7 @@
 
 Both estimators, box_counting and correlation_sum, give a curve of log(measure) over log(scale). Its slope is the
 dimension only in between: boxes smaller than the distance of the samples count samples, boxes as large as the set feel
-its rim. `scaling_region` finds what lies in between.
+its rim. `scaling_region` finds the scales in between.
 """
 
 from typing import NamedTuple
@@ -73,8 +73,9 @@ def scaling_region(scales: np.ndarray, values: np.ndarray, uncertain: np.ndarray
     Returns
     -------
     slope, error, low, high
-        error: twice the standard error, twice the rms deviation of the straight stretches that are at least half as
-        long, the drift of the slope to the ends of the stretch and the slopes of the uncertain changes, in squares
+        error: the root of the sum of squares of twice the standard error, twice the rms deviation of the straight
+        stretches that are at least half as long, the drift of the slope to the ends of the stretch, and the slopes of
+        the uncertain changes
     """
     x = np.log(scales)
     first, last = np.triu_indices(len(x))

@@ -2,8 +2,6 @@
 
 import numpy as np
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
 
 from conveyor.analysis.fractals import box_counting, correlation_sum
 from conveyor.analysis.fractals.reference_sets import cantor, circle, sierpinski, square
@@ -121,11 +119,3 @@ def test_points_are_checked(points):
 def test_positions_of_grids_are_the_same_at_each_scale():
     doubled = np.round(np.modf(2.0 * box_counting.SHIFTS)[0] * 13) % 13
     assert {tuple(one) for one in doubled} == {tuple(one) for one in np.round(box_counting.SHIFTS * 13)}
-
-
-@given(st.lists(st.integers(0, 2**62 - 1), min_size=1, max_size=100))
-@example([0, 0])
-@example([2**11, 2**11 - 1, 2**22, 0, 2**61, 2**62 - 1])
-def test_keys_of_boxes_are_sorted(keys):
-    keys = np.array(keys)
-    assert np.array_equal(box_counting.sort_keys(keys.copy()), np.sort(keys))
