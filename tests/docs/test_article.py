@@ -23,7 +23,9 @@ sys.stdout.buffer.write(article.typeset(*{TEXT}))
 """
 
 
-def test_the_users_pandoc_and_its_settings_do_not_count(tmp_path):
+def test_the_users_pandoc_and_its_settings_do_not_count(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.delenv("PYPANDOC_PANDOC", raising=False)  # set by the article itself
     pandoc = tmp_path / "bin/pandoc"
     pandoc.parent.mkdir()
     pandoc.write_text(NEWER)
@@ -33,6 +35,6 @@ def test_the_users_pandoc_and_its_settings_do_not_count(tmp_path):
     (data / "abbreviations").write_text("Smith.\n")  # by default: Mr., followed by a no-break space
     users = os.environ | {"PATH": f"{pandoc.parent}:{os.environ['PATH']}", "XDG_DATA_HOME": str(data.parent)}
     users |= {"PYTHONPATH": f"{ROOT}:{ROOT / 'scripts'}"}
-    theirs = subprocess.run([sys.executable, "-c", TYPESET], cwd=tmp_path, env=users, capture_output=True, check=True)
+    theirs = subprocess.run([sys.executable, "-c", TYPESET], env=users, capture_output=True, check=True)
     assert theirs.stdout.startswith(b"%PDF")
     assert theirs.stdout == article.typeset(*TEXT)
