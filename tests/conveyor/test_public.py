@@ -31,11 +31,10 @@ ODD = (
 CONVEYOR = Conveyor(static_friction=0.15)
 HORIZONTAL = ("mean_velocity", "x_end", "vx_end")  # NaN where only the vertical motion is followed
 SECONDS = 20  # a call takes at most about two, once its kernels are compiled
-ORBIT = conveyor.periodic_orbit(Conveyor(), Start(3e-4), transient=100)
 POINTS = np.random.default_rng(1).random((200, 2))
 NUMBERS = [*(name for name in RANGES if name not in ("z0", "vz0"))]
 TABLE = parameter_table(Conveyor(), z0=[0.0, 3e-4], acceleration=[40.0, 80.0])
-# Arguments with which each function is quick.
+# Arguments with which each function is quick; `arguments_of` adds an orbit.
 FUNCTIONS = {
     "simulate": {"conveyor": Conveyor(), "start": Start(), "duration": 0.02, "method": "event", "tolerance": 1e-8}
     | {"step": 1e-5, "reuse": True},
@@ -50,8 +49,8 @@ FUNCTIONS = {
     "lyapunov_spectrum": {"parameters": TABLE, "states": np.zeros((2, 2)), "transient": 10, "cycles": 5, "blocks": 2}
     | {"tolerance": 1e-8, "threads": 1},
     "periodic_orbit": {"conveyor": Conveyor(), "start": Start(), "period": 1, "transient": 10},
-    "find_orbit": {"parameters": TABLE[0], "acceleration": 40.0, "state": ORBIT.state, "period": 1},
-    "continue_orbit": {"conveyor": Conveyor(), "orbit": ORBIT, "low": 39.99, "high": 40.01},
+    "find_orbit": {"parameters": TABLE[0], "acceleration": 40.0, "period": 1},
+    "continue_orbit": {"conveyor": Conveyor(), "low": 39.99, "high": 40.01},
     "basin": {"conveyor": Conveyor(), "z": [0.0, 1e-4], "vz": 0.0, "cycles": 10, "tolerance": 1e-8, "threads": 1},
     "box_dimension": {"points": POINTS},
     "correlation_dimension": {"points": POINTS, "theiler": 0},
@@ -67,15 +66,24 @@ OVERDAMPED = {
     "mass": 1.45e-4,
     "exponent": 1.0,
 }
-RUN = simulation.simulate(Conveyor(), duration=0.02)
 METHODS = {"mean_velocity": {"last": 0.5}, "sample": {"times": [0.0, 0.01]}}
 
 
+@pytest.fixture(scope="module")
+def orbit():
+    return conveyor.periodic_orbit(Conveyor(), Start(3e-4), transient=100)
+
+
+def arguments_of(name, orbit):
+    """The arguments of one of FUNCTIONS."""
+    return FUNCTIONS[name] | {"find_orbit": {"state": orbit.state}, "continue_orbit": {"orbit": orbit}}.get(name, {})
+
+
 @pytest.fixture(scope="module", autouse=True)
-def compiled():
+def compiled(orbit):
     """To compile takes longer than any call may."""
-    for name, arguments in FUNCTIONS.items():
-        getattr(conveyor, name)(**arguments)
+    for name in FUNCTIONS:
+        getattr(conveyor, name)(**arguments_of(name, orbit))
     conveyor.classify(parameter_table(Conveyor(), acceleration=[80.0] * 8), cycles=10)
 
 
@@ -100,8 +108,8 @@ def call(function, name, arguments, changed):
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_odd_arguments_are_named(name):
-    arguments = FUNCTIONS[name]
+def test_odd_arguments_are_named(name, orbit):
+    arguments = arguments_of(name, orbit)
     function = getattr(conveyor, name)
     for argument in arguments:
         for odd in ODD:
@@ -115,9 +123,10 @@ def test_odd_arguments_are_named(name):
 
 @pytest.mark.parametrize("name", METHODS)
 def test_odd_arguments_of_a_run_are_named(name):
+    run = simulation.simulate(Conveyor(), duration=0.02)
     for argument in METHODS[name]:
         for odd in ODD:
-            call(getattr(RUN, name), name, METHODS[name], {argument: odd})
+            call(getattr(run, name), name, METHODS[name], {argument: odd})
 
 
 @pytest.mark.parametrize(
@@ -207,7 +216,7 @@ def changed_table(parameter, value):
 
 @pytest.mark.parametrize("name", CHECKED)
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e308, -1e308, -1.0])
-def test_tables_of_parameters_are_checked(name, value):
+def test_tables_of_parameters_are_checked(name, value, orbit):
     """Each parameter of a row has its range; -1 lies within those of some."""
     for parameter in PARAMETERS:
         table = changed_table(parameter, value)
@@ -217,7 +226,7 @@ def test_tables_of_parameters_are_checked(name, value):
         if np.isnan(value) and parameter in ("z0", "vz0"):
             continue  # a part that starts on the plate, and one whose last run failed
         with pytest.raises(ValueError, match=rf"parameters\[\d\]: {parameter} = .* is outside \["):
-            getattr(conveyor, name)(**FUNCTIONS[name] | {"parameters": table})
+            getattr(conveyor, name)(**arguments_of(name, orbit) | {"parameters": table})
 
 
 def test_a_run_that_continues_a_failed_one_fails():
@@ -252,21 +261,21 @@ def test_numbers_of_any_type_give_the_run_of_their_values(kind, method):
 
 
 @pytest.mark.parametrize("changed", [{"multipliers": 1.0}, {"multipliers": ("a", "b")}, {"impacts": [1, 2]}])
-def test_an_orbit_with_odd_fields_is_named(changed):
+def test_an_orbit_with_odd_fields_is_named(changed, orbit):
     with pytest.raises(ValueError, match=f"orbit.{next(iter(changed))}"):
-        conveyor.continue_orbit(Conveyor(), ORBIT._replace(**changed), low=39.99, high=40.01)
+        conveyor.continue_orbit(Conveyor(), orbit._replace(**changed), low=39.99, high=40.01)
 
 
-def test_an_orbit_of_another_conveyor_is_refused():
+def test_an_orbit_of_another_conveyor_is_refused(orbit):
     with pytest.raises(ValueError, match="orbit is no orbit of this conveyor"):
-        conveyor.continue_orbit(Conveyor(damping=0.31), ORBIT, low=39.99, high=40.01)
+        conveyor.continue_orbit(Conveyor(damping=0.31), orbit, low=39.99, high=40.01)
 
 
-def test_a_branch_has_only_orbits_and_bifurcations_between_its_ends():
+def test_a_branch_has_only_orbits_and_bifurcations_between_its_ends(orbit):
     """The period doubles at 54.218 m/s², less than a step of the branch beyond the first end."""
     ends = {}
     for high in (54.2, 54.22):
-        branch = conveyor.continue_orbit(Conveyor(), ORBIT, low=39.9, high=high)
+        branch = conveyor.continue_orbit(Conveyor(), orbit, low=39.9, high=high)
         assert 39.9 <= branch.orbits[0].acceleration < 40.0
         assert high - 0.1 <= branch.orbits[-1].acceleration <= high
         ends[high] = [point.kind for point in branch.bifurcations]
