@@ -11,10 +11,10 @@ from numpy.polynomial.polynomial import polyval
 
 from conveyor import Conveyor, Start
 from conveyor.analysis import contact_groups, dimensionless_groups, stroboscopic_map
-from conveyor.solver import contact, contact_law, model
+from conveyor.solver import contact, contact_law, model, plate
 from conveyor.solver.model import TENSION_MODES, pack
 from conveyor.solver.status import OK
-from conveyor.solver.workspace import FIRST, SPARE, V, W
+from conveyor.solver.workspace import FIRST, SPARE, T, V, W
 
 SPEEDS = np.geomspace(0.03, 3.0, 10)  # of an impact, in units of g/ω
 EXPONENTS = [1.0, 1.5, 1.7]
@@ -106,3 +106,32 @@ def test_contacts_of_equal_loss_take_equal_shares_of_the_speed(exponent):
         shares.append(1.0 + leave(contact.constants(row, 1e-12), 0.0, speed) / speed)
     assert shares == pytest.approx(np.full(3, shares[0]), rel=0.02)
     assert 0.1 * loss < shares[0] < 10.0 * loss
+
+
+@pytest.mark.parametrize("exponent", EXPONENTS)
+def test_rates_along_a_step_are_those_of_its_series(exponent):
+    """The force, and Y, into whose rate only the spring enters; and the inverse and the slope of Y."""
+    for seed in range(20):
+        parameters, (length_unit, speed_unit) = random_conveyor(seed, exponent)
+        c, series, random = contact.constants(parameters, 1e-9), contact.workspace(), np.random.default_rng(seed)
+        w0, phase = math.sqrt(random.uniform(0.05, 0.3) * length_unit), random.uniform(0.0, 2.0 * math.pi)
+        sine, cosine = math.sin(phase), math.cos(phase)
+        length = contact.begin_step(c, series, FIRST, w0, 0.5 * speed_unit, sine, cosine, False)
+        contact_law.expand_force(c, series, FIRST, SPARE, 1.0)
+        rows = [contact_law.row_of(series, row) for row in (FIRST + W, FIRST + V, FIRST + T, SPARE)]
+        (w, v, t, product), *beside = ([polyval(s * length, row) for row in rows] for s in (0.3, 0.2999, 0.3001))
+        (before, after), lapse = (np.array(beside), beside[1][2] - beside[0][2])
+        force, press = (
+            contact_law.force(c, w, v),
+            c.gravity + plate.lift(c, *plate.sine_and_cosine(phase + c.omega * t)),
+        )
+        assert product == pytest.approx(w * force, rel=1e-7)
+        rise = (contact_law.force(c, *after[:2]) - contact_law.force(c, *before[:2])) / lapse
+        assert contact_law.force_rate(c, w, v, press) == pytest.approx(rise, rel=1e-4, abs=1e-5 * c.omega * abs(force))
+        smooth = [contact_law.smooth_speed(c, one[0] ** 2, one[1]) for one in (before, after)]
+        rate = press - contact_law.force(c, w, 0.0)
+        assert (smooth[1] - smooth[0]) / lapse == pytest.approx(rate, rel=1e-4, abs=1e-5 * (c.gravity + abs(force)))
+        assert contact_law.speed_of_approach(c, w * w, contact_law.smooth_speed(c, w * w, v)) == pytest.approx(v)
+        shift = 1e-5 * w * w
+        slope = [contact_law.smooth_speed(c, w * w + side * shift, v) / (2.0 * shift) for side in (-1.0, 1.0)]
+        assert contact_law.smooth_slope(c, w * w) == pytest.approx(slope[1] - slope[0], rel=1e-5)
