@@ -139,7 +139,7 @@ def from_paper(tables):
     """Inputs of a page with the paper's results; an error for a config without the paper's claims."""
 
     def inputs(wildcards):
-        check_claims("a page with the paper's results")
+        check_claims("the text of README, article and site")
         return tables
 
     return inputs
