@@ -119,13 +119,13 @@ def identification_settings(table: str, config: dict) -> dict:
 
 def paper_numbers(config: dict) -> dict[str, dict]:
     """The paper's numbers CLAIM.QUANTITY, each with the ends of its accepted interval."""
-    found = {}
+    numbers = {}
     for key in NUMBERS_OF_CLAIMS:
         claim, name = key.split(".")
         quantity = config["claims"][claim]["quantities"][name]
         low, high = quantity["accepted"]
-        found[key] = {"is": quantity["is"], "paper": quantity["paper"], "low": low, "high": high}
-    return found
+        numbers[key] = {"is": quantity["is"], "paper": quantity["paper"], "low": low, "high": high}
+    return numbers
 
 
 def measured_quantities(config: dict) -> dict:

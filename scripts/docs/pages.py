@@ -96,11 +96,11 @@ def find_gaps(defaults: list[FileKey]) -> list[dict]:
 def group_keys(known: list[Key], defaults: list[FileKey]) -> dict[str, list[dict]]:
     """All keys by section, with their default values; a key below a free name has none."""
     values = {key.path: key.value for key in defaults}
-    found = {}
+    by_section = {}
     for key in known:
         value = values.get(key.path, "")
-        found.setdefault(key.path[0], []).append({**key._asdict(), "key": format_path(key.path), "value": value})
-    return found
+        by_section.setdefault(key.path[0], []).append({**key._asdict(), "key": format_path(key.path), "value": value})
+    return by_section
 
 
 def list_entries(known: list[Key], defaults: list[FileKey]) -> dict[str, list[dict]]:
@@ -116,11 +116,11 @@ def list_entries(known: list[Key], defaults: list[FileKey]) -> dict[str, list[di
 
 def group_modules(library: list[str]) -> dict[str, list[str]]:
     """Modules of the library by package; modules in no subpackage under "conveyor"."""
-    found = {}
+    by_package = {}
     for path in library:
         _, *package, _ = path.split("/")
-        found.setdefault(package[0] if package else "conveyor", []).append(path.replace("/", "."))
-    return found
+        by_package.setdefault(package[0] if package else "conveyor", []).append(path.replace("/", "."))
+    return by_package
 
 
 def add_uncertainty(claims: dict[str, dict], tighter: dict[str, dict]) -> None:

@@ -17,7 +17,7 @@ WITHOUT_TABLES = ("figures", "docs")
 
 def modules_of(stage: str) -> list[ModuleType]:
     """The modules of a stage that make tables, in the order of their names."""
-    names = [found.name for found in pkgutil.iter_modules(importlib.import_module(stage).__path__)]
+    names = [module.name for module in pkgutil.iter_modules(importlib.import_module(stage).__path__)]
     # Settings are modules of the workflow, and have other relative imports.
     modules = [importlib.import_module(f"{stage}.{name}") for name in names if name != "settings"]
     return [module for module in modules if hasattr(module, "TABLES")]

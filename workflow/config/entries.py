@@ -30,26 +30,26 @@ def variants(name: str, entry: dict) -> dict[str, dict]:
 
 def by_methods(config: dict) -> dict:
     """A config with one method per entry."""
-    found = dict(config)
+    expanded = dict(config)
     for section in METHOD_SECTIONS:
-        found[section] = {}
+        expanded[section] = {}
         for name, entry in config[section].items():
-            found[section] |= variants(name, entry)
-    return found
+            expanded[section] |= variants(name, entry)
+    return expanded
 
 
 def with_tighter(config: dict) -> dict:
     """A config with one method per entry, and each converged table a second time, with a tighter tolerance."""
-    found = config | {section: dict(config[section]) for section in TIGHTENED}
+    expanded = config | {section: dict(config[section]) for section in TIGHTENED}
     for section in METHOD_SECTIONS:
         for name, entry in config[section].items():
             if entry.get("method", config["solver"]["method"]) == "event":
                 tolerance = entry.get("tolerance", config["solver"]["tolerance"]) / config["uncertainty"]["tighter"]
-                found[section][name + TIGHTER] = entry | {"tolerance": tolerance}
+                expanded[section][name + TIGHTER] = entry | {"tolerance": tolerance}
     for name, entry in config["regressions"].items():
-        if entry["critical"] + TIGHTER in found["critical"]:
-            found["regressions"][name + TIGHTER] = entry | {"critical": entry["critical"] + TIGHTER}
-    return found
+        if entry["critical"] + TIGHTER in expanded["critical"]:
+            expanded["regressions"][name + TIGHTER] = entry | {"critical": entry["critical"] + TIGHTER}
+    return expanded
 
 
 def fill_defaults(config: dict, section: str, entry: dict) -> dict:

@@ -125,10 +125,10 @@ def parse(text: str, source: str) -> tuple[list[str], Any]:
 
 def read_all(files: list[str | Path]) -> list[dict]:
     """The contents of config files; ConfigError names all faults with file and line."""
-    found = [read(file) for file in files]
-    if faults := [fault for faults, _ in found for fault in faults]:
+    results = [read(file) for file in files]
+    if faults := [fault for faults, _ in results for fault in faults]:
         raise ConfigError(faults)
-    return [content for _, content in found]
+    return [content for _, content in results]
 
 
 def merge(*configs: dict) -> dict:

@@ -18,8 +18,8 @@ class EditorSchema(GenerateJsonSchema):
         return False
 
     def dict_schema(self, schema):
-        found = super().dict_schema(schema)
-        return found | {"additionalProperties": False} if "patternProperties" in found else found
+        made = super().dict_schema(schema)
+        return made | {"additionalProperties": False} if "patternProperties" in made else made
 
 
 @cache

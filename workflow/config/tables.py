@@ -86,11 +86,11 @@ def budgeted_entries(config: dict) -> dict[str, dict]:
 
 def tighter_claims(config: dict) -> dict[str, dict]:
     """The claims whose uncertainty is estimated, with tables of tighter tolerances for the converged solution."""
-    known, found = set(references(config)), {}
+    known, claims = set(references(config)), {}
     for name in config["uncertainty"]["claims"]:
         claim = config["claims"][name]
         # A claim without a role of this name reads converged tables only.
         roles = [role for role in claim["tables"] if role.startswith("converged")] or claim["tables"]
         tighter = {role: claim["tables"][role] + TIGHTER for role in roles if claim["tables"][role] + TIGHTER in known}
-        found[name] = claim | {"tables": claim["tables"] | tighter}
-    return found
+        claims[name] = claim | {"tables": claim["tables"] | tighter}
+    return claims
