@@ -277,7 +277,7 @@ rule site:
 
 
 # The pictures of the README, and what the site shows of other conveyors:
-#   snakemake docs/bowl_operating.png --configfile config/examples/bowl.yaml
+#   snakemake docs/bowl_transit.png docs/bowl_basin_stability.png docs/bowl_drive.png --configfile config/examples/bowl.yaml
 #   snakemake docs/feeder_transit.png docs/feeder_chart.md --configfile workflow/templates/site/feeder.yaml
 #   snakemake docs/measured_calibration.png docs/measured_calibration.md --configfile config/examples/measured.yaml
 #   snakemake docs/measured_chart.md --configfile config/examples/measured.yaml results/measured/calibrated.yaml

@@ -67,15 +67,15 @@ def plot() -> Figure:
 
     arrow(axes, project(5.7, 1.5, 0.75), project(8.0, 1.5, 0.75), colour=style.EULER)
     axes.text(*project(5.8, 1.5, 0.95), "feeding", color=style.EULER)
-    axes.text(*project(3.2, 2.9, 1.25), "part $O$")
+    axes.text(*project(3.2, 2.9, 1.4), "part $O$")
     axes.text(2.05, -0.75, "vibrating channel $N$", va="top")
     arrow(axes, (9.3, -0.4), (10.9, 0.1), "<|-|>", style.CONVERGED)
-    axes.text(10.2, -0.45, "vibration\nin $x$ and $z$", color=style.CONVERGED, va="top")
+    axes.text(10.5, -0.4, "vibration\nin $x$ and $z$", color=style.CONVERGED, va="top")
     origin = (-2.6, -0.6)
     for tip, name in (((1.3, 0.0), "$x$"), ((0.9 * DEPTH[0] * 2, 0.9 * DEPTH[1] * 2), "$y$"), ((0.0, 1.3), "$z$")):
         end = origin[0] + tip[0], origin[1] + tip[1]
         arrow(axes, origin, end)
         axes.annotate(name, end, (2, 1), textcoords="offset points")
     axes.set_xlim(-2.8, 13.2)
-    axes.set_ylim(-2.8, 2.6)
+    axes.set_ylim(-2.8, 2.8)
     return figure

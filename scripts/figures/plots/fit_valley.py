@@ -63,7 +63,7 @@ def draw_parameters(axes: Axes, fit: pd.DataFrame, flat: pd.DataFrame) -> None:
     axes.set_xlabel("$A$ in 10$^{-3}$ m²/s²")
     axes.set_ylabel("$C$ in mm")
     # Room for the legend below the curve.
-    axes.set_ylim(bottom=1e3 * (valley.C.min() - 0.6 * np.ptp(valley.C)))
+    axes.set_ylim(bottom=1e3 * (valley.C.min() - 0.75 * np.ptp(valley.C)))
     axes.legend(loc="lower left")
 
 

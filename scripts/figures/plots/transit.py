@@ -97,5 +97,5 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
     below.legend(*tracks.get_legend_handles_labels(), loc="outside right center")
     above.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     for axes, letter in ((bands, "a"), (spreads, "b"), (tracks, "c")):
-        style.note(axes, f"({letter})", (0.0, 1.0), (-26, 4), xycoords="axes fraction")
+        axes.set_title(letter, loc="left", weight="bold")
     return figure

@@ -70,7 +70,8 @@ def draw_factor(axes: Axes, factor: speed.Factor, below: bool) -> None:
     place = math.sqrt(factor.own_milliseconds * factor.milliseconds), factor.error
     offset, side = ((0, -3), "top") if below else ((0, 3), "bottom")
     label = f"{float(f'{factor.ratio:.2g}'):g}×"
-    style.note(axes, label, place, offset, ha="center", va=side, weight="bold")
+    box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5}  # between the label and the curves
+    style.note(axes, label, place, offset, ha="center", va=side, weight="bold", bbox=box)
 
 
 def draw_panel(axes: Axes, runs: pd.DataFrame) -> None:
