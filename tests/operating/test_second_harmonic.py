@@ -73,7 +73,7 @@ def test_a_search_without_a_confirmed_drive_does_not_count(monkeypatch):
     table = searched(monkeypatch, 0.2)
     table.loc[table.index[0], ["within", "velocity_05"]] = False, 9.0
     page = page_of(table)
-    assert page.splitlines()[2].startswith("Yes, ") and "In 1 of 12 searches, none of these keeps" in page
+    assert page.splitlines()[2].startswith("Yes, ") and "In 1 of 12 searches, none of these drives keeps" in page
     table.loc[table.index[1], "within"] = False
     assert "| not known | not known |" in page_of(table)
 
