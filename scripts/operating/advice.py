@@ -13,7 +13,7 @@ import pandas as pd
 
 from conveyor import RANGES, throw_number
 from operating.parts import VARIED, population, with_calibration
-from operating.transit import MEASURES, PROBABILITIES, follow, measure, relative_spread, summarize
+from operating.transit import MEASURES, PROBABILITIES, follow, measure, relative_spread, summarize_populations
 from pipeline import fields
 
 FAST, EVEN = "fast", "even"
@@ -127,12 +127,12 @@ def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *
     models = [model, *(with_parameter(model, *one) for one in changed)]
     populations = [population(amplitude, {**settings, "model": one}) for one in models]
     run = follow(np.concatenate(populations), settings, threads=threads)
-    velocity, is_right = run["velocity"][:, 0].reshape(-1, parts), (run["status"] == "ok").reshape(-1, parts)
-    rows = []
+    velocity, is_right = run.velocity[:, 0].reshape(-1, parts), (run.status == "ok").reshape(-1, parts)
+    measures, rows = summarize_populations(run, parts).to_dict("records"), []
     for place, (parameter, value) in enumerate(changed, start=1):
         both = is_right[0] & is_right[place]
         rows.append(
-            summarize(run, slice(place * parts, (place + 1) * parts))
+            measures[place]
             | compare(velocity[0, both], velocity[place, both], settings["seed"])
             | {"parameter": parameter, "value": value}
         )

@@ -112,8 +112,8 @@ def lengths_table(regimes: pd.DataFrame, drifts: pd.DataFrame, settings: dict, *
     for regime, amplitudes in candidates.items():
         for acceleration in spaced(amplitudes, OF_EACH_REGIME):
             run = follow(population(np.array([acceleration]), settings, IDENTICAL), settings, **track, **options)
-            right = run["status"] == "ok"
-            values, errors = zip(*(quantiles(velocity) for velocity in run["velocity"][right].T), strict=True)
+            right = run.status == "ok"
+            values, errors = zip(*(quantiles(velocity) for velocity in run.velocity[right].T), strict=True)
             own = drifts[drifts.acceleration == acceleration]
             predicted = np.full(len(factors), np.nan)
             if regime == CHAOS:
@@ -127,7 +127,7 @@ def lengths_table(regimes: pd.DataFrame, drifts: pd.DataFrame, settings: dict, *
                         "spread": spread_of(np.array(values).T),
                         "spread_stderr": spread_stderr(np.array(values).T, np.array(errors).T),
                         "predicted": predicted,
-                        "late": np.isnan(run["arrival"][right]).mean(axis=0),
+                        "late": np.isnan(run.arrival[right]).mean(axis=0),
                     }
                 )
             )

@@ -7,7 +7,7 @@ amplitude only within a relative margin, the worst numbers within the margin cou
 transit table.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -17,7 +17,7 @@ from conveyor import progress_bar
 from conveyor.elementary import cos, exp, log, sin
 from conveyor.linear_algebra import length
 from operating.parts import population
-from operating.transit import follow, summarize
+from operating.transit import follow, summarize_populations
 from pipeline import fields, pareto
 from pipeline.fields import AXES
 
@@ -143,9 +143,7 @@ def evaluate(designs: np.ndarray, settings: dict, errors: np.ndarray, *, threads
         own = {**settings, "model": model_of(design, settings["model"])}
         rows.append(population(design[0] * (1.0 + settings["margin"] * errors), own))
     run = follow(np.concatenate(rows), settings, threads=threads)
-    parts = settings["starts"]
-    begins = range(0, parts * len(errors) * len(designs), parts)
-    measures = pd.DataFrame([summarize(run, slice(begin, begin + parts)) for begin in begins])
+    measures = summarize_populations(run, settings["starts"])
     outcome = {
         name: worst(measures[measure].to_numpy(dtype=float).reshape(len(designs), len(errors)), axis=1)
         for name, (measure, worst) in WORST.items()
@@ -171,6 +169,12 @@ def is_within(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
     return (constraints(outcome, settings) <= 0.0).all(axis=1)
 
 
+def evaluate_few(designs: np.ndarray, settings: dict) -> pd.DataFrame:
+    """What `evaluate` returns for the few parts and the short time of a search."""
+    few = {**settings, "starts": settings["search"]["parts"], "longest": settings["search"]["longest"]}
+    return evaluate(designs, few, SEARCH_ERRORS)
+
+
 def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np.ndarray]:
     """Objectives, shape (k, 3), all to be minimised, and constraints, shape (k, 5), of designs of the search.
 
@@ -179,10 +183,16 @@ def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np
     outcome = pd.DataFrame({"displacement": displacement(designs)}).reindex(columns=[*WORST, "displacement"])
     within = outcome.displacement.to_numpy() <= settings["displacement"]
     if within.any():
-        outcomes = evaluate(designs[within], settings, SEARCH_ERRORS)
+        outcomes = evaluate_few(designs[within], settings)
         outcome.loc[within, outcomes.columns] = outcomes.to_numpy()
     objectives = np.column_stack([-outcome.velocity, outcome.impact_speed, peak_acceleration(designs)])
     return np.where(np.isnan(objectives), np.inf, objectives), constraints(outcome, settings)
+
+
+def last_growth(values: Sequence[float]) -> float:
+    """Relative growth in the last quarter of the generations, from a value for each of them; inf from zero."""
+    earlier = values[3 * len(values) // 4 - 1]
+    return values[-1] / earlier - 1.0 if earlier > 0.0 else np.inf
 
 
 def reference_point(settings: dict) -> np.ndarray:
@@ -243,8 +253,9 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
     if designs.shape[1] > len(SEARCHED):
         pure = np.column_stack([peak_acceleration(designs), designs[:, 1 : len(SEARCHED)]])
         front.loc[chosen, "pure_velocity"] = evaluate(pure, settings, CHECK_ERRORS, threads=threads).velocity.to_numpy()
-    front.loc[chosen, "confirmed"] = is_within(outcome, settings)
-    sure = outcome[is_within(outcome, settings)]
+    is_confirmed = is_within(outcome, settings)
+    front.loc[chosen, "confirmed"] = is_confirmed
+    sure = outcome[is_confirmed]
     best = spread(objectives_of(sure, front.peak_acceleration[sure.index]), RECOMMENDED)
     front.loc[sure.index[best], "recommended"] = True
     return front
@@ -252,11 +263,10 @@ def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFr
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
     """The tables of the front and of the generations."""
-    few = {**settings, "starts": settings["search"]["parts"], "longest": settings["search"]["longest"]}
     # One thread for each seed: the designs of one generation are too few for several threads.
     total = len(SEEDS) * settings["generations"]
     with progress_bar(total=total, label=progress, unit="generations") as shown, ThreadPoolExecutor(threads) as pool:
-        searches = {seed: pool.submit(search, few, seed, shown.update) for seed in SEEDS}
+        searches = {seed: pool.submit(search, settings, seed, shown.update) for seed in SEEDS}
     fronts = {seed: one.result() for seed, one in searches.items()}
     designs, objectives = pareto.best_of(
         np.vstack([front.points for front in fronts.values()]),

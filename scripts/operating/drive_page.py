@@ -4,25 +4,16 @@ import numpy as np
 import pandas as pd
 
 from operating.chart import MANY_LATE, RULE_OF_THREE, spreads_of
-from operating.drive import DRAWN, SEEDS, SETTLED
+from operating.drive import DRAWN, SEEDS, SETTLED, last_growth
 from operating.regimes import is_frictionless, is_steep
 from operating.transit import ENDS
 from pipeline.templates import render
 
 
-def last_growth(generations: pd.DataFrame) -> float:
-    """Largest relative growth of the hypervolume in the last quarter of the generations of any seed; inf for none."""
-    growth = []
-    for _, rows in generations.groupby("seed"):
-        volumes = rows.hypervolume.to_numpy()
-        earlier = volumes[3 * len(volumes) // 4 - 1]
-        growth.append(volumes[-1] / earlier - 1.0 if earlier > 0.0 else np.inf)
-    return max(growth)
-
-
 def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
-    """The settings of the search, the sizes of its front, and how much the hypervolume grew at the end."""
-    last, growth = generations[generations.generation == generations.generation.max()], last_growth(generations)
+    """The settings of the search, the sizes of its front, and the largest growth of the hypervolume of a seed."""
+    last = generations[generations.generation == generations.generation.max()]
+    growth = max(last_growth(rows.hypervolume.to_numpy()) for _, rows in generations.groupby("seed"))
     return {
         "search": front.attrs,
         "seeds": len(SEEDS),

@@ -26,21 +26,6 @@ def starts_of_box(settings: dict) -> np.ndarray:
     return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
 
 
-def set_starts(rows: np.ndarray, starts: np.ndarray) -> None:
-    """Write initial conditions, shape (n, 3), into a table of parameters, shape (n,)."""
-    height, velocity, phase = starts.T
-    rows["psi0"], rows["vz0"] = phase, velocity
-    rows["z0"] = height + plate_heights(rows)
-
-
-def parameters_of(amplitudes: np.ndarray, starts: np.ndarray, model: dict) -> np.ndarray:
-    """Parameters, shape (m n,), of n initial conditions, shape (n, 3), at each of m amplitudes."""
-    _, conveyors = grid.product({"acceleration": list(amplitudes)}, model)
-    rows = np.repeat(conveyors, len(starts))
-    set_starts(rows, np.tile(starts, (len(amplitudes), 1)))
-    return rows
-
-
 def factors(spread: dict, count: int) -> np.ndarray:
     """Factors of the parameters in COLUMNS for each of `count` parts, shape (count, 5).
 
@@ -89,11 +74,12 @@ def with_calibration(settings: dict, samples: pd.DataFrame | None, parameters: p
 def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np.ndarray:
     """Parameters of n parts at each of m amplitudes (m/s²), shape (m n,).
 
-    settings : `model`; `starts` (n), `seed` and the ends of the box of initial conditions; `spread`, see `factors`; if
-        parameters are uncertain, `calibrated`, see `calibrated_factors`
+    settings : `model`; `starts` (n), `seed` and the ends of the box of initial conditions. For varied parts, also
+        `spread`, see `factors`, and, if parameters are uncertain, `calibrated`, see `calibrated_factors`
     kind : one of POPULATIONS
     """
     starts = starts_of_box(settings)
+    height, velocity, phase = np.tile(starts, (len(amplitudes), 1)).T
     _, conveyors = grid.product({"acceleration": list(amplitudes)}, settings["model"])
     rows = np.repeat(conveyors, len(starts))
     if kind == VARIED:
@@ -105,5 +91,6 @@ def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np
             rows[name] *= np.tile(column, len(amplitudes))
         rows["static_friction"] *= np.tile(of_static[:, COLUMNS.index("friction")], len(amplitudes))
         rows["static_friction"] = np.maximum(rows["static_friction"], rows["friction"])
-    set_starts(rows, np.tile(starts, (len(amplitudes), 1)))
+    rows["psi0"], rows["vz0"] = phase, velocity
+    rows["z0"] = height + plate_heights(rows)
     return rows

@@ -16,13 +16,13 @@ from scipy.optimize import OptimizeResult, differential_evolution
 from conveyor import progress_bar
 from operating.drive import (
     CHECK_ERRORS,
-    SEARCH_ERRORS,
     SEARCHED,
     SECOND_HARMONIC,
     constraints,
     evaluate,
-    is_within,
+    evaluate_few,
     largest,
+    last_growth,
 )
 from pipeline import fields
 from pipeline.fields import AXES
@@ -76,23 +76,16 @@ def costs(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
     return np.where(violations > 0.0, violations, -outcome.velocity.to_numpy(dtype=float))
 
 
-def last_growth(velocities: list[float]) -> float:
-    """Relative growth in the last quarter of the generations, from the largest velocity up to each; inf from zero."""
-    earlier = velocities[3 * len(velocities) // 4 - 1]
-    return velocities[-1] / earlier - 1.0 if earlier > 0.0 else np.inf
-
-
 def fastest(peak: float, kind: str, seed: int, settings: dict, count: Callable[[], object]) -> dict:
     """A row of the table: the fastest drive of one search.
 
     count : called after each generation
     """
-    few = {**settings, "starts": settings["search"]["parts"], "longest": settings["search"]["longest"]}
     bounds = np.array(bounds_of(kind, settings["bounds"]))
-    velocities, rng = [], np.random.default_rng(seed)
+    velocities, rng = [], np.random.default_rng(seed)  # the largest velocity up to each generation
 
     def evaluate_points(points: np.ndarray) -> np.ndarray:
-        return costs(evaluate(designs_at(peak, points.T), few, SEARCH_ERRORS), few)
+        return costs(evaluate_few(designs_at(peak, points.T), settings), settings)
 
     def after_generation(intermediate_result: OptimizeResult) -> None:
         velocities.append(max(0.0, -intermediate_result.fun))
@@ -112,7 +105,8 @@ def fastest(peak: float, kind: str, seed: int, settings: dict, count: Callable[[
     )
     designs = designs_at(peak, result.population[np.argsort(result.population_energies, kind="stable")[:CONFIRMED]])
     outcome = evaluate(designs, settings, CHECK_ERRORS)
-    best = int(costs(outcome, settings).argmin())
+    cost = costs(outcome, settings)
+    best = int(cost.argmin())
     growth = last_growth(velocities)
     return {
         "peak_acceleration": peak,
@@ -123,7 +117,7 @@ def fastest(peak: float, kind: str, seed: int, settings: dict, count: Callable[[
         "velocity_05": outcome.velocity[best],
         "velocity_50": outcome.velocity_50[best],
         "impact_speed": outcome.impact_speed[best],
-        "within": is_within(outcome, settings)[best],
+        "within": cost[best] < 0.0,
         "growth": growth,
         "settled": growth <= SETTLED,
     }

@@ -12,7 +12,7 @@ import pandas as pd
 from conveyor import LAST, Columns, continued, sample_runs, sweep, throw_number
 from conveyor.elementary import cos, sin
 from operating import regimes
-from operating.parts import parameters_of, starts_of_box
+from operating.parts import IDENTICAL, population
 from pipeline import fields, grid
 from pipeline.labelling import label_starts, limit_of_mean, mean_settling
 from pipeline.sizes import WHOLE_MAP
@@ -162,19 +162,9 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
     return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters["frequency"]
 
 
-def motion_shares(
-    parameters: np.ndarray,
-    starts: int,
-    settings: dict,
-    *,
-    threads: int = 1,
-    progress: str | None = None,
-) -> pd.DataFrame:
-    """The motions that `starts` initial conditions of each of k conveyors end in, a row for each motion.
-
-    parameters : shape (k starts,)
-    Returns the columns of the table and `conveyor`, its number.
-    """
+def shares_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
+    """The table for some amplitudes (m/s²), ascending, shape (m,)."""
+    starts, parameters = settings["starts"], population(amplitudes, settings, IDENTICAL)
     labels = label_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
     number = groups(labels, np.arange(len(parameters)) // starts)
     _, first, count = np.unique(number, return_index=True, return_counts=True)
@@ -199,9 +189,8 @@ def motion_shares(
     normal_gravity = parameters["gravity"][first] * cos(parameters["inclination"][first])
     harmonics = settings["model"].get("harmonics", ())
     largest_fall = throw_number(1.0, angle=0.5 * math.pi, gravity=1.0, harmonics=harmonics)
-    return pd.DataFrame(
+    table = pd.DataFrame(
         {
-            "conveyor": first // starts,
             "acceleration": acceleration,
             "vertical": acceleration * sin(parameters["angle"][first]) / normal_gravity * largest_fall,
             "state": labels.state[first],
@@ -217,15 +206,8 @@ def motion_shares(
             "status": status,
         }
     )
-
-
-def shares_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
-    """The table for some amplitudes (m/s²), ascending, shape (m,)."""
-    starts = starts_of_box(settings)
-    parameters = parameters_of(amplitudes, starts, settings["model"])
-    table = motion_shares(parameters, len(starts), settings, threads=threads, progress=progress)
     order = {"by": ["acceleration", "mean_velocity", "starts"], "ascending": [True, False, False]}
-    table = table.drop(columns="conveyor").sort_values(**order, ignore_index=True)
+    table = table.sort_values(**order, ignore_index=True)
     return table.assign(motion=table.groupby("acceleration").cumcount() + 1)
 
 

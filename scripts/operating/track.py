@@ -9,7 +9,7 @@ Where the track is too steep for friction, a part slides downhill faster and fas
 import numpy as np
 
 from conveyor import sweep
-from operating.parts import parameters_of, starts_of_box
+from operating.parts import IDENTICAL, population
 from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY, plate_speed, steepness
 from operating.shares import FORGOTTEN, SETTLED, brief_durations, continue_normal
 from pipeline import fields, grid
@@ -35,13 +35,13 @@ def settled_motions(
     """Number of the inclination, number of the state and period of each settled motion, shape (k,), its
     parameters, shape (k,), and whether a search ended before it had settled, for each inclination.
     """
-    starts, amplitude = starts_of_box(settings), np.array([settings["acceleration"]])
+    starts, amplitude = settings["starts"], np.array([settings["acceleration"]])
     models = [{**settings["model"], "inclination": value} for value in inclinations]
-    rows = np.concatenate([parameters_of(amplitude, starts, model) for model in models])
-    labels = label_starts(rows, settings, starts=len(starts), threads=threads)
+    rows = np.concatenate([population(amplitude, {**settings, "model": model}, IDENTICAL) for model in models])
+    labels = label_starts(rows, settings, starts=starts, threads=threads)
     motions = []
     for number in range(len(inclinations)):
-        own = np.arange(number * len(starts), (number + 1) * len(starts))
+        own = np.arange(number * starts, (number + 1) * starts)
         for place, state in enumerate(STATES):
             # The trajectory with the most frequent period that settles first.
             members = own[(labels.state[own] == state) & (labels.period[own] > 0)]
@@ -51,7 +51,7 @@ def settled_motions(
                 motions.append((number, place, period, members[labels.cycles[members].argmin()]))
     number, state, period, first = np.array(motions, dtype=np.int64).reshape(len(motions), 4).T
     settled = continue_normal(rows[first], labels.cycles[first] + FORGOTTEN, settings, threads=threads)
-    is_open = ((labels.period == 0) & (labels.state != "chaos")).reshape(len(inclinations), len(starts)).any(axis=1)
+    is_open = ((labels.period == 0) & (labels.state != "chaos")).reshape(len(inclinations), starts).any(axis=1)
     return number, state, period, settled, is_open
 
 

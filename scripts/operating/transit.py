@@ -99,10 +99,10 @@ def upper(peaks: np.ndarray) -> float:
     return float(np.quantile(known, PROBABILITIES[-1])) if len(known) else math.nan
 
 
-def summarize(run: dict[str, np.ndarray], part: slice = slice(None)) -> dict[str, float]:
-    """The measures of a population from a range of rows of `follow` on a single track."""
-    right = run["status"][part] == "ok"
-    velocity, arrival = run["velocity"][part][right, 0], run["arrival"][part][right, 0]
+def summarize(run: Columns) -> dict[str, float]:
+    """The measures of a population from the rows of `follow` on a single track."""
+    right = run.status == "ok"
+    velocity, arrival = run.velocity[right, 0], run.arrival[right, 0]
     if not right.any():
         return dict.fromkeys((column.name for column in MEASURES), math.nan) | {"failed": len(right)}
     values, errors = quantiles(velocity)
@@ -113,9 +113,15 @@ def summarize(run: dict[str, np.ndarray], part: slice = slice(None)) -> dict[str
         "spread": relative_spread(values),
         "late": np.isnan(arrival).mean(),
         "back": (velocity < 0.0).mean(),
-        **{name: upper(run[name][part][right]) for name in ("impact_speed", "peak_force")},
+        **{name: upper(run[name][right]) for name in ("impact_speed", "peak_force")},
         "failed": np.count_nonzero(~right),
     }
+
+
+def summarize_populations(run: Columns, parts: int) -> pd.DataFrame:
+    """The measures of populations of so many parts each, below each other in the rows of `follow`; a row for each."""
+    begins = range(0, len(run.status), parts)
+    return pd.DataFrame([summarize(run.select(slice(begin, begin + parts))) for begin in begins])
 
 
 def measure(amplitudes: np.ndarray, settings: dict, kinds: tuple[str, ...] = POPULATIONS, **options) -> pd.DataFrame:
@@ -126,17 +132,14 @@ def measure(amplitudes: np.ndarray, settings: dict, kinds: tuple[str, ...] = POP
     """
     # Parts without a spread are followed once.
     is_spread = any(settings["spread"][name] for name in settings["spread"] if name != "seed")
-    distinct = kinds if is_spread else kinds[:1]
-    rows = np.concatenate([population(amplitudes, settings, kind if is_spread else IDENTICAL) for kind in distinct])
-    run = follow(rows, settings, **options)
-    parts = settings["starts"]
-    measures = [summarize(run, slice(begin, begin + parts)) for begin in range(0, len(rows), parts)]
-    tables = [
-        pd.DataFrame(measures[begin : begin + len(amplitudes)]).assign(acceleration=amplitudes)
-        for begin in range(0, len(measures), len(amplitudes))
-    ]
-    tables = [(tables[place] if is_spread else tables[0]).assign(population=kind) for place, kind in enumerate(kinds)]
-    return pd.concat(tables, ignore_index=True).sort_values("acceleration", kind="stable", ignore_index=True)
+    distinct = kinds if is_spread else (IDENTICAL,)
+    rows = np.concatenate([population(amplitudes, settings, kind) for kind in distinct])
+    table = summarize_populations(follow(rows, settings, **options), settings["starts"]).assign(
+        acceleration=np.tile(amplitudes, len(distinct)), population=np.repeat(distinct, len(amplitudes))
+    )
+    if not is_spread:
+        table = pd.concat([table.assign(population=kind) for kind in kinds])
+    return table.sort_values("acceleration", kind="stable", ignore_index=True)
 
 
 def make(

@@ -131,7 +131,7 @@ def test_a_search_with_known_outcomes_finds_their_front(made):
     assert checked.checked_velocity.to_numpy() == pytest.approx(checked.velocity)
     assert checked.checked_velocity_95.to_numpy() == pytest.approx(checked.velocity + 0.01)
     assert front[~front.checked].checked_velocity.isna().all()
-    assert drive_page.last_growth(made["drive_generations"]) < 0.05
+    assert growth(made["drive_generations"]) < 0.05
     for _, rows in made["drive_generations"].groupby("seed"):
         assert (np.diff(rows.hypervolume) >= -1e-12).all()
         assert rows.hypervolume.iloc[-1] <= 1.0 + 1e-12
@@ -139,6 +139,12 @@ def test_a_search_with_known_outcomes_finds_their_front(made):
 
 def growing(*volumes: float) -> pd.DataFrame:
     return pd.DataFrame({"seed": 1, "generation": np.arange(1, len(volumes) + 1), "hypervolume": volumes})
+
+
+def growth(generations: pd.DataFrame) -> float:
+    front = pd.DataFrame({"checked": [True], "confirmed": [True]})
+    front.attrs = SETTINGS
+    return drive_page.summarize_search(front=front, generations=generations)["growth"]
 
 
 def test_seeds_search_on_their_own_whatever_the_number_of_threads(monkeypatch):
@@ -160,9 +166,9 @@ def test_seeds_search_on_their_own_whatever_the_number_of_threads(monkeypatch):
 
 def test_growth_covers_the_last_quarter_of_the_worst_seed():
     one, other = growing(0.1, 0.5, 0.8, 0.8, 0.8, 0.9, 0.9, 0.9), growing(0.1, 0.5, 0.5, 0.8, 0.8, 0.8, 0.8, 1.0)
-    assert drive_page.last_growth(one) == pytest.approx(0.0)
-    assert drive_page.last_growth(pd.concat([one, other.assign(seed=2)])) == pytest.approx(0.25)
-    assert drive_page.last_growth(growing(0.0, 0.0, 0.0, 0.0)) == math.inf
+    assert growth(one) == pytest.approx(0.0)
+    assert growth(pd.concat([one, other.assign(seed=2)])) == pytest.approx(0.25)
+    assert growth(growing(0.0, 0.0, 0.0, 0.0)) == math.inf
 
 
 def test_the_page_lists_the_recommended_settings(made):

@@ -28,8 +28,8 @@ BOX = {
 
 
 def test_heights_are_above_the_plate_at_the_initial_phase():
-    starts = np.array([[1e-4, 0.1, 0.0], [0.0, -0.2, 1.0], [3e-4, 0.0, 4.0]])
-    rows = parts.parameters_of(np.array([30.0, 50.0]), starts, {"angle": 0.3})
+    box = {**BOX, "starts": 3, "model": {"angle": 0.3}}
+    rows, starts = parts.population(np.array([30.0, 50.0]), box, parts.IDENTICAL), parts.starts_of_box(box)
     assert rows.shape == (6,)
     for row, acceleration, (height, velocity, phase) in zip(
         rows, np.repeat([30.0, 50.0], 3), np.tile(starts, (2, 1)), strict=True
@@ -74,7 +74,7 @@ def table():
 
 def test_labels_agree_with_sweeps(table):
     """The same initial conditions as rows of a sweep, without shared chaotic sets."""
-    parameters = parts.parameters_of(np.array([40.0]), parts.starts_of_box(BOX), {})
+    parameters = parts.population(np.array([40.0]), BOX, parts.IDENTICAL)
     found = label_entry(parameters, {**BOX, "axes": {"acceleration": [40.0]}})
     own = table[table.acceleration == 40.0].set_index("state").starts
     assert own.to_dict() == pd.Series(found.state).value_counts().to_dict()

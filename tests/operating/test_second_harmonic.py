@@ -26,7 +26,8 @@ def searched(monkeypatch, gain: float, **measures: float) -> pd.DataFrame:
         outcome |= {"back": 0.0, "failed": 0, "impact_speed": 0.1, **measures}
         return pd.DataFrame(outcome, index=range(len(designs)))
 
-    monkeypatch.setattr(second_harmonic, "evaluate", evaluate)
+    for module in (drive, second_harmonic):
+        monkeypatch.setattr(module, "evaluate", evaluate)
     table = second_harmonic.make(SETTINGS, threads=2)
     table.attrs = SETTINGS
     return table
@@ -89,8 +90,3 @@ def test_a_drive_within_the_constraints_costs_less_than_any_other():
     rows = {"back": [0.0, 0.5], "failed": 0, "velocity": [0.03, 9.0], "impact_speed": 0.1, "displacement": 1e-4}
     costs = second_harmonic.costs(pd.DataFrame(rows), SETTINGS)
     assert costs[0] == -0.03 and costs[1] > 0.0
-
-
-def test_growth_covers_the_last_quarter():
-    assert second_harmonic.last_growth([0.0, 0.1, 0.2, 0.25]) == pytest.approx(0.25)
-    assert second_harmonic.last_growth([0.0, 0.0, 0.0, 0.1]) == np.inf

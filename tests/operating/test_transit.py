@@ -8,6 +8,7 @@ import pytest
 from project import read_config
 
 from conveyor import (
+    Columns,
     Conveyor,
     Start,
     conveyor_and_start,
@@ -133,13 +134,15 @@ def test_quantiles_and_their_errors():
 
 def test_measures_of_made_up_runs():
     velocity = np.array([0.2, 0.1, 0.1, 0.1, -0.1, np.nan])
-    run = {
-        "velocity": velocity[:, None],
-        "arrival": np.array([1.0, 2.0, 2.0, np.nan, np.nan, np.nan])[:, None],
-        "impact_speed": np.array([0.3, 0.3, np.nan, 0.3, 0.3, np.nan]),
-        "peak_force": np.full(6, np.nan),
-        "status": np.array(["ok"] * 5 + ["too many events"], dtype=object),
-    }
+    run = Columns(
+        {
+            "velocity": velocity[:, None],
+            "arrival": np.array([1.0, 2.0, 2.0, np.nan, np.nan, np.nan])[:, None],
+            "impact_speed": np.array([0.3, 0.3, np.nan, 0.3, 0.3, np.nan]),
+            "peak_force": np.full(6, np.nan),
+            "status": np.array(["ok"] * 5 + ["too many events"], dtype=object),
+        }
+    )
     found = transit.summarize(run)
     assert found["velocity_50"] == 0.1
     assert found["mean_velocity"] == pytest.approx(0.08)
@@ -147,8 +150,11 @@ def test_measures_of_made_up_runs():
     assert found["spread"] == pytest.approx((0.18 - -0.06) / 0.1)
     assert found["impact_speed"] == 0.3
     assert math.isnan(found["peak_force"])
-    assert transit.summarize(run, slice(5, 6))["failed"] == 1
-    assert math.isnan(transit.summarize(run, slice(5, 6))["velocity_05"])
+    each = transit.summarize_populations(run, 2)
+    assert each.velocity_50.tolist() == pytest.approx([0.15, 0.1, -0.1])
+    assert each.failed.tolist() == [0, 0, 1]
+    failed = transit.summarize(run.select([5]))
+    assert failed["failed"] == 1 and math.isnan(failed["velocity_05"])
 
 
 def test_a_part_on_a_steep_track_moves_back():
