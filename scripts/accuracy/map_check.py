@@ -72,25 +72,25 @@ def is_near_boundary(labels: np.ndarray) -> np.ndarray:
     return maximum_filter(states, footprint=cross) != minimum_filter(states, footprint=cross)
 
 
-def draw_rows(near: np.ndarray, points: int, share: float, random: np.random.Generator) -> np.ndarray:
-    """As many random rows of a map as `points`, a `share` of them near a boundary; fewer if the map has not enough.
+def draw_rows(near: np.ndarray, points: int, random: np.random.Generator) -> np.ndarray:
+    """As many random rows of a map as `points`, a share BOUNDARY of them near a boundary; fewer if it has not enough.
 
     near : whether each row is near a boundary, bool, shape (n,)
     """
     close, far = np.flatnonzero(near), np.flatnonzero(~near)
-    close_count = min(round(share * points), len(close))
+    close_count = min(round(BOUNDARY * points), len(close))
     far_count = min(points - close_count, len(far))
     return np.sort(
         np.concatenate([random.choice(close, close_count, replace=False), random.choice(far, far_count, replace=False)])
     )
 
 
-def repeated_period(strobes: np.ndarray, scale: np.ndarray, close: float, repeats: int) -> int:
-    """The least period (cycles) of the last `repeats` of some strobes, shape (n, 2); 0 for none."""
+def repeated_period(strobes: np.ndarray, scale: np.ndarray) -> int:
+    """The least period (cycles) of the last REPEATS of some strobes, shape (n, 2); 0 for none."""
     scaled = strobes / scale
-    last = scaled[-repeats:]
-    for period in range(1, min(MAX_PERIOD, len(scaled) - repeats) + 1):
-        if np.abs(last - scaled[-repeats - period : len(scaled) - period]).max() <= close:
+    last = scaled[-REPEATS:]
+    for period in range(1, min(MAX_PERIOD, len(scaled) - REPEATS) + 1):
+        if np.abs(last - scaled[-REPEATS - period : len(scaled) - period]).max() <= CLOSE:
             return period
     return 0
 
@@ -109,14 +109,14 @@ def simulate_until_settled(row: np.ndarray, settings: dict) -> Settled:
         strobes = np.column_stack([run.z[0], run.vz[0]])
         row["z0"], row["vz0"] = strobes[-1]
         cycles += BLOCK
-        period = repeated_period(strobes, scale, CLOSE, REPEATS)
+        period = repeated_period(strobes, scale)
     return Settled(period, cycles, row)
 
 
-def longest_flight(row: np.ndarray, period: int, tolerance: float) -> float:
+def longest_flight(row: np.ndarray, period: int) -> float:
     """The longest flight (excitation cycles) of the periodic motion from parameters on its orbit."""
     cycles = 2 * period + 1  # a flight may begin before the initial time and be longer than a cycle
-    run = simulate(*conveyor_and_start(row), duration=cycles / row["frequency"], tolerance=tolerance, reuse=False)
+    run = simulate(*conveyor_and_start(row), duration=cycles / row["frequency"], tolerance=TOLERANCE, reuse=False)
     changes = run.events[np.isin(run.events["kind"], ["impact", "separation"])]
     flights = np.diff(changes["time"])[changes["kind"][1:] == "impact"]
     return flights.max(initial=0.0) * row["frequency"]
@@ -133,7 +133,7 @@ def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress:
             settled[k] = simulate_until_settled(rows[k], settings)
             ends[k] = settled[k].end
             if settled[k].period:
-                flights[k] = longest_flight(ends[k], settled[k].period, TOLERANCE)
+                flights[k] = longest_flight(ends[k], settled[k].period)
 
     for_each_chunk(work, len(rows), threads=threads, chunk=1, progress=progress)
     period = np.array([one.period for one in settled])
@@ -163,7 +163,7 @@ def make(
     for name, table in zip(settings["maps"], maps, strict=True):
         axes = table.attrs["axes"]
         near = is_near_boundary(table.state.to_numpy().reshape([grid.count_values(axis) for axis in axes.values()]))
-        rows = draw_rows(near.ravel(), settings["points"], BOUNDARY, random)
+        rows = draw_rows(near.ravel(), settings["points"], random)
         label, near_boundary = table.state.to_numpy()[rows], near.ravel()[rows]
         chosen.append(pd.DataFrame({"map": name, "row": rows, "near_boundary": near_boundary, "label": label}))
         parameters += [grid.product(axes, table.attrs["model"], (row, row + 1))[1] for row in rows.tolist()]

@@ -13,6 +13,8 @@ from orbits import estimates, exponents, strobes
 from pipeline import grid
 from sweeps import shards
 
+LINE = 0.005  # visible change as a share of the axis range: a line of 0.25 mm on an axis of 50 mm
+
 
 class Shown(NamedTuple):
     """The part of a kind of table that figures show."""
@@ -103,12 +105,10 @@ def observe_shifted(shown: Shown, settings: dict, shifts: Sequence[float]) -> li
     return [table[table[name].isin(one)].assign(**{name: table[name].map(one)}) for one in originals]
 
 
-def visible_differences(
-    shown: Shown, truth: pd.DataFrame, other: pd.DataFrame, axes: dict, line: float
-) -> pd.DataFrame:
+def visible_differences(shown: Shown, truth: pd.DataFrame, other: pd.DataFrame, axes: dict) -> pd.DataFrame:
     """Whether a reader can see the difference of each drawn value of two tables; rows as in `truth`.
 
-    A reader sees the difference of two numbers if it is more than `line` times their range, the difference of unequal
+    A reader sees the difference of two numbers if it is more than LINE times their range, the difference of unequal
     texts, and a value that only one table has. A column without any value in `other` was not computed and does not
     count.
     """
@@ -124,21 +124,19 @@ def visible_differences(
         elif other[name].notna().any():
             groups = here.groupby(level=list(axes)) if shown.each else here.groupby(lambda _: 0)
             extent = groups.transform("max") - groups.transform("min")
-            visible[name] = ~((here.sub(there).abs() <= line * extent) | (here.isna() & there.isna()))
+            visible[name] = ~((here.sub(there).abs() <= LINE * extent) | (here.isna() & there.isna()))
         else:
             visible[name] = pd.Series(False, index=both.index)
     return pd.DataFrame(visible)
 
 
-def robust_values(
-    shown: Shown, truth: pd.DataFrame, others: list[pd.DataFrame], axes: dict, line: float
-) -> pd.DataFrame:
+def robust_values(shown: Shown, truth: pd.DataFrame, others: list[pd.DataFrame], axes: dict) -> pd.DataFrame:
     """Whether each drawn value looks the same in all `others`; rows and columns as in `visible_differences`.
 
     After the first different sample, all samples of a signal count as different. One different strobe makes all strobes
     of its motion different. The reason is that two chaotic motions may look alike at a moment by chance.
     """
-    differ = sum(visible_differences(shown, truth, other, axes, line).astype(int) for other in others) > 0
+    differ = sum(visible_differences(shown, truth, other, axes).astype(int) for other in others) > 0
     if shown.each and "time" in shown.keys:
         differ = differ.groupby(level=list(axes)).cummax()
     if shown.motion:

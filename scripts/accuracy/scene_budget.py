@@ -52,7 +52,6 @@ TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)  # a table is compared at the ones
 # Largest accepted share of drawn values that change visibly: one in a hundred, or four of the 400 points of a map. It
 # was 0.005 before the maps were computed, and was raised afterwards.
 PIXELS = 0.01
-LINE = 0.005  # visible change as a share of the axis range: a line of 0.25 mm on an axis of 50 mm
 TIGHT, TIGHTER = 1e-13, 3e-14
 # Excitation cycles of each variant and before the first sample of a portrait; number of samples of a portrait.
 CYCLES, SAMPLES = 1000, 20000
@@ -143,11 +142,11 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     alike = observables.observe_shifted(shown, full_settings, SHIFTS)
     alike.append(shown.observe(full_settings | {"tolerance": TIGHTER}))
     full_seconds, truth = least_time(lambda: shown.observe(full_settings))
-    robust = observables.robust_values(shown, truth, alike, settings["axes"], LINE)
+    robust = observables.robust_values(shown, truth, alike, settings["axes"])
     work_at = cache(partial(measure_work, parameters[:: max(1, len(parameters) // 50)]))
 
     def row(variant: str, of: dict, seconds: float, table: pd.DataFrame) -> dict:
-        visible = observables.visible_differences(shown, truth, table, settings["axes"], LINE)
+        visible = observables.visible_differences(shown, truth, table, settings["axes"])
         shares = [visible[name][robust[name]].mean() for name in shown.drawn if robust[name].any()]
         steps, sticks = work_at(of["tolerance"])
         return {

@@ -156,12 +156,12 @@ def outcome_of_impact(method: str, step: float, speed: float, conveyor: Conveyor
     return RIGHT if abs(outcome - truth) < RESTITUTION else WRONG
 
 
-def outcome_on_conveyor(run: Columns, conveyor: Conveyor, start: Start, duration: float) -> str:
+def outcome_on_conveyor(run: Columns, conveyor: Conveyor, duration: float) -> str:
     """Outcome for a part on the vibrating plate by a fixed-step method, compared with the event-driven solver.
 
     The energy grows if the largest gap is more than twice the true one.
     """
-    truth = simulate(conveyor, start, duration=duration)
+    truth = simulate(conveyor, Start(HEIGHT), duration=duration)
     velocity = truth.mean_velocity()
     if run.status != "ok" or max(abs(run.z_end), run.max_gap) > FAR:
         return BLOWS_UP
@@ -170,10 +170,10 @@ def outcome_on_conveyor(run: Columns, conveyor: Conveyor, start: Start, duration
     return RIGHT if abs(run.mean_velocity - velocity) < VELOCITY * abs(velocity) else WRONG
 
 
-def penetration_on_conveyor(conveyor: Conveyor, start: Start, duration: float) -> float:
+def penetration_on_conveyor(conveyor: Conveyor) -> float:
     """Largest penetration (m) in the last quarter of a run, from the largest contact force."""
-    run = simulate(conveyor, start, duration=duration)
-    force = run.sample(np.linspace(0.75, 1.0, 5001) * duration)["contact_force"].max()
+    run = simulate(conveyor, Start(HEIGHT), duration=DURATION)
+    force = run.sample(np.linspace(0.75, 1.0, 5001) * DURATION)["contact_force"].max()
     return (force / conveyor.stiffness) ** (1.0 / conveyor.exponent)
 
 
@@ -181,17 +181,17 @@ def penetration_on_conveyor(conveyor: Conveyor, start: Start, duration: float) -
 Experiment = tuple[Callable[[float], str], float]
 
 
-def conveyor_experiments(method: str, values: np.ndarray, z0: float, duration: float) -> list[Experiment]:
+def conveyor_experiments(method: str, values: np.ndarray) -> list[Experiment]:
     """Experiments on the vibrating plate; for each step, parts at all amplitudes are simulated side by side."""
-    start, parameters = Start(z0), parameter_table(Conveyor(), Start(z0), acceleration=values)
-    runs = cache(lambda step: sweep(parameters, duration=whole_steps(duration, step), method=method, step=step))
+    parameters = parameter_table(Conveyor(), Start(HEIGHT), acceleration=values)
+    runs = cache(lambda step: sweep(parameters, duration=whole_steps(DURATION, step), method=method, step=step))
 
     def experiment(place: int) -> Experiment:
         conveyor = Conveyor(acceleration=values[place])
-        stiffness = 1.5 * conveyor.stiffness * math.sqrt(penetration_on_conveyor(conveyor, start, duration))
+        stiffness = 1.5 * conveyor.stiffness * math.sqrt(penetration_on_conveyor(conveyor))
 
         def outcome(step: float) -> str:
-            return outcome_on_conveyor(runs(step).select(place), conveyor, start, whole_steps(duration, step))
+            return outcome_on_conveyor(runs(step).select(place), conveyor, whole_steps(DURATION, step))
 
         return outcome, stability_limit(method, stiffness, conveyor.damping, conveyor.mass)
 
@@ -225,7 +225,7 @@ def region_rows(effort: float, progress: str | None) -> list[dict]:
         values = panel_values(panel, effort)
         for method in FIXED_STEP_METHODS:
             if panel == "conveyor":
-                experiments = conveyor_experiments(method, values, HEIGHT, DURATION)
+                experiments = conveyor_experiments(method, values)
             else:
                 experiments = [rest_experiment(panel, method, value) for value in values]
             lines += [(panel, method, value, *one) for value, one in zip(values, experiments, strict=True)]

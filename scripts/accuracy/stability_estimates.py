@@ -126,13 +126,13 @@ def portrait(parameters: np.ndarray, times: np.ndarray, method: str) -> np.ndarr
     return np.stack([motion["z"], motion["vz"]], axis=1)
 
 
-def estimate_dimensions(points: np.ndarray, theiler: int, most: int) -> dict[str, Dimension]:
-    """The dimension of points by all estimators; the correlation sum only of at most `most` points."""
+def estimate_dimensions(points: np.ndarray, theiler: int) -> dict[str, Dimension]:
+    """The dimension of points by all estimators; the correlation sum only of at most CORRELATED points."""
     estimated = {
         "boxes": box_dimension(points),
         "boxes, as in the paper": box_dimension_of_paper(points),
     }
-    if len(points) <= most:
+    if len(points) <= CORRELATED:
         estimated["correlation sum"] = correlation_dimension(points, theiler)
     return estimated
 
@@ -151,12 +151,12 @@ def dimension_rows(model: dict, progress: str | None) -> list[dict]:
     for count in progress_bar(POINTS, label=progress and f"{progress}: points", unit="sizes"):
         rng = np.random.default_rng(SEED)
         for draw, truth in REFERENCE_DIMENSIONS.items():
-            estimated = estimate_dimensions(draw(rng, count), 0, CORRELATED)
+            estimated = estimate_dimensions(draw(rng, count), 0)
             add("known set", draw.__name__, estimated, truth, samples=count)
         for name, case in PORTRAITS.items():
             times = BEGIN + INTERVAL / model["frequency"] * np.arange(count)
             points = portrait(parameters_of(case, model)[0], times, "event")
-            estimated = estimate_dimensions(points, THEILER, CORRELATED)
+            estimated = estimate_dimensions(points, THEILER)
             add("samples", name, estimated, CURVE[name], samples=count)
     for name, case in PORTRAITS.items():
         for duration in RUN_TIMES:

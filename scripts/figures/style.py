@@ -161,6 +161,12 @@ def limit_x(axes: Axes, places: Iterable[float]) -> None:
     axes.set_xlim((low, high) if low < high else (0.95 * low, 1.05 * high))
 
 
+def letter(*panels: Axes, **options) -> None:
+    """Write a, b, c, … above the left ends of panels; options of `Axes.set_title`."""
+    for axes, name in zip(panels, "abcdef", strict=False):
+        axes.set_title(name, loc="left", weight="bold", **options)
+
+
 def say(axes: Axes, text: str) -> None:
     """Write in the middle of empty axes why there is nothing to show."""
     box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}

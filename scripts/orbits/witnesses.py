@@ -23,11 +23,10 @@ TABLES = {
     ),
 }
 
-# Strobes that vary by less than this, in m/s, are constant.
 STROBES = 2000  # samples of the 0-1 test
 SEED = 1  # of its frequencies
 SIGNIFICANT = 3.0  # standard errors by which a positive exponent must exceed zero
-RESOLUTION = 1e-9
+RESOLUTION = 1e-9  # m/s: strobes that vary by less are constant
 
 
 def zero_one_values(parameters: np.ndarray, settings: dict, *, threads: int, progress: str | None) -> np.ndarray:
@@ -43,12 +42,12 @@ def zero_one_values(parameters: np.ndarray, settings: dict, *, threads: int, pro
     return indicators
 
 
-def reason(row: pd.Series, significant: float) -> str | None:
+def reason(row: pd.Series) -> str | None:
     """The reason why the criteria disagree, in words; None if they agree."""
     if row.agree:
         return None
     reasons = []
-    if abs(row.lambda_1) <= significant * row.stderr:
+    if abs(row.lambda_1) <= SIGNIFICANT * row.stderr:
         reasons.append(
             f"λ1 = {row.lambda_1:.3g} ± {row.stderr:.2g} 1/s does not differ significantly from 0, near a bifurcation"
         )
@@ -77,5 +76,5 @@ def make(
     rows["by_zero_one"] = rows.zero_one > 0.5
     rows["by_period"] = rows.period == 0
     rows["agree"] = (rows.by_exponent == rows.by_zero_one) & (rows.by_exponent == rows.by_period)
-    rows["reason"] = [reason(row, SIGNIFICANT) for _, row in rows.iterrows()]
+    rows["reason"] = [reason(row) for _, row in rows.iterrows()]
     return {column.name: rows[column.name].to_numpy() for column in TABLES["witnesses"]}

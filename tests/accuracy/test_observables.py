@@ -34,19 +34,19 @@ def test_thinned_axes_keep_their_ends_and_words():
 
 
 def test_a_line_hides_smaller_differences():
-    found = curve(value={1: 2.05, 2: 5.2}, state={3: "second"})
-    seen = observables.visible_differences(CURVE, curve(), found, AXES, line=0.01)
+    found = curve(value={1: 2.04, 2: 5.2}, state={3: "second"})
+    seen = observables.visible_differences(CURVE, curve(), found, AXES)
     assert list(seen.value) == [False, False, True, False, False]
     assert list(seen.state) == [False, False, False, True, False]
 
 
 def test_missing_values_differ_and_uncomputed_values_do_not():
-    seen = observables.visible_differences(CURVE, curve(), curve().drop(index=4), AXES, line=0.01)
+    seen = observables.visible_differences(CURVE, curve(), curve().drop(index=4), AXES)
     assert list(seen.value) == [False] * 4 + [True]
     assert list(seen.state) == [False] * 4 + [True]
-    seen = observables.visible_differences(CURVE, curve(), curve().assign(value=np.nan), AXES, line=0.01)
+    seen = observables.visible_differences(CURVE, curve(), curve().assign(value=np.nan), AXES)
     assert not seen.to_numpy().any()
-    seen = observables.visible_differences(CURVE, curve(), curve(value={2: np.nan}), AXES, line=0.01)
+    seen = observables.visible_differences(CURVE, curve(), curve(value={2: np.nan}), AXES)
     assert list(seen.value) == [False, False, True, False, False]
 
 
@@ -54,7 +54,7 @@ def test_samples_after_a_difference_are_not_known():
     axes = {"z0": [0.0, 1.0]}
     truth = pd.DataFrame({"z0": np.repeat([0.0, 1.0], 3), "time": [0.0, 1.0, 2.0] * 2, "value": [0.0, 5.0, 10.0] * 2})
     other = truth.assign(value=[0.0, 6.0, 10.0, 0.0, 5.0, 10.0])
-    known = observables.robust_values(SIGNAL, truth, [truth, other], axes, line=0.01)
+    known = observables.robust_values(SIGNAL, truth, [truth, other], axes)
     assert list(known.value) == [True, False, False, True, True, True]
 
 

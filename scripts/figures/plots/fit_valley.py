@@ -91,6 +91,5 @@ def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame,
     draw_errors(panels[0], fit, fit_euler, paper_error)
     draw_parameters(panels[1], fit, flat)
     draw_heights(panels[2], converged, flat, fit.attrs["acceleration"])
-    for axes, letter in zip(panels, "abc", strict=True):
-        axes.set_title(letter, loc="left", fontweight="bold")
+    style.letter(*panels)
     return figure

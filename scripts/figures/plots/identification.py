@@ -103,6 +103,5 @@ def plot(*, samples: pd.DataFrame, frictions: pd.DataFrame) -> Figure:
         draw_posterior(axes, samples, parameter, model[parameter])
     panels[0].set_ylabel("posterior in %")
     lower.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
-    for axes, letter in zip((alone, contacts, *panels), "abcdef", strict=True):
-        axes.set_title(letter, loc="left", fontweight="bold")
+    style.letter(alone, contacts, *panels)
     return figure

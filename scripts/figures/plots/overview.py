@@ -73,8 +73,7 @@ def plot(
     states.set_xlabel("initial height $z_0$ in mm")
     states.set_ylabel("initial phase $\\psi_0$ in rad")
     states.set_title(f"$\\hat{{a}}$ = {map.attrs['model']['acceleration']:g} m/s²")
-    for axes, letter in ((diagram, "a"), (below, "b"), (states, "c")):
-        axes.set_title(letter, loc="left", weight="bold")
+    style.letter(diagram, below, states)
     figure.legend(handles=style.state_handles(strobes, map), loc="outside upper center", ncols=4)
     figure.align_ylabels([diagram, below])
     return figure

@@ -161,6 +161,5 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
         handles |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
     if handles:
         figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=4)
-    for axes, letter in zip((amplitudes, heights, damping, stiffness), "abcd", strict=True):
-        axes.set_title(letter, loc="left", x=-0.22, fontweight="bold")
+    style.letter(amplitudes, heights, damping, stiffness, x=-0.22)
     return figure

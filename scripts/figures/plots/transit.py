@@ -96,6 +96,5 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
     tracks.set_ylabel("relative spread")
     below.legend(*tracks.get_legend_handles_labels(), loc="outside right center")
     above.legend(handles=handles, loc="outside upper center", ncols=len(handles))
-    for axes, letter in ((bands, "a"), (spreads, "b"), (tracks, "c")):
-        axes.set_title(letter, loc="left", weight="bold")
+    style.letter(bands, spreads, tracks)
     return figure
