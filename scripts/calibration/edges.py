@@ -38,7 +38,7 @@ HEIGHTS = (
 SCAN = np.linspace(1.0, 14.0, 23)  # vertical amplitudes (m/s²), from below: 5 to 67 m/s² at 12°
 # Distances above an edge (m/s²) at which the first state may return; tongues are narrower.
 FURTHER = 0.02 * np.arange(1.0, 11.0)
-RESOLUTION = 2e-4  # m/s², of an edge: a thousandth of what a reader can see
+RESOLUTION = 2e-4  # m/s², largest width of the bracket of an edge: a thousandth of what a reader can see
 # Excitation cycles after which an unsettled motion is not in the first state, which settles within about 50.
 CYCLES = 1000
 # Of the contact steps (see figure scene_budget).
@@ -47,22 +47,18 @@ TOLERANCE = 1e-6
 Decide = Callable[[np.ndarray], np.ndarray]
 
 
-def find_edges(
-    parameters: np.ndarray, scan: np.ndarray, further: np.ndarray, resolution: float, decide: Decide
-) -> np.ndarray:
+def find_edges(parameters: np.ndarray, scan: np.ndarray, decide: Decide) -> np.ndarray:
     """Amplitude (m/s²) above which initial conditions no longer lead to the first state, shape (n,); NaN for none.
 
     A scan from below brackets the edge, and bisection locates it. Below the edge there may be tongues: narrow intervals
-    of amplitudes with another state. If the first state returns at one of the amplitudes `further` above, the search
-    goes on from there. It cannot begin from above, because far above the edge there are unrelated motions without a
-    long flight.
+    of amplitudes with another state. If the first state returns at one of the distances FURTHER above, the search goes
+    on from there. It cannot begin from above, because far above the edge there are unrelated motions without a long
+    flight.
 
     Parameters
     ----------
     parameters : table, shape (n,); their acceleration is not used
     scan : ascending amplitudes, m/s², shape (k,), or (k, n) for a scan of each row
-    further : distances above an edge at which the first state may return, m/s², shape (s,)
-    resolution : largest width of the final bracket, m/s²
     decide : function from a table of parameters, shape (m,), to states of motion, str, shape (m,)
     """
     n = len(parameters)
@@ -74,7 +70,7 @@ def find_edges(
         return decide(selected) == "first"
 
     def bisect(rows: np.ndarray) -> None:
-        while (wide := rows[high[rows] - low[rows] > resolution]).size:
+        while (wide := rows[high[rows] - low[rows] > RESOLUTION]).size:
             middle = 0.5 * (low[wide] + high[wide])
             first = is_first(wide, middle)
             low[wide[first]] = middle[first]
@@ -89,12 +85,12 @@ def find_edges(
     todo = bracketed = np.flatnonzero(np.isfinite(low + high))
     while len(todo):
         bisect(todo)
-        above = high[todo, None] + further
-        back = is_first(np.repeat(todo, len(further)), above.ravel()).reshape(above.shape)
+        above = high[todo, None] + FURTHER
+        back = is_first(np.repeat(todo, len(FURTHER)), above.ravel()).reshape(above.shape)
         tongue = back.any(axis=1)
         todo, above, back = todo[tongue], above[tongue], back[tongue]
         low[todo] = np.where(back, above, -np.inf).max(axis=1, initial=-np.inf)
-        high[todo] = low[todo] + further[0]
+        high[todo] = low[todo] + FURTHER[0]
     middle = np.full(n, np.nan)
     middle[bracketed] = 0.5 * (low + high)[bracketed]
     return middle
@@ -131,6 +127,4 @@ def converged_states(threads: int) -> Decide:
 def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     """The columns of the table of edges for the settings of the rule."""
     columns, parameters = conveyors(settings)
-    return columns | {
-        "vertical_acceleration": find_edges(parameters, SCAN, FURTHER, RESOLUTION, converged_states(threads))
-    }
+    return columns | {"vertical_acceleration": find_edges(parameters, SCAN, converged_states(threads))}

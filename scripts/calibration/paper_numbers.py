@@ -13,8 +13,7 @@ import pandas as pd
 from scipy.interpolate import CubicSpline, RegularGridInterpolator
 from scipy.sparse.linalg import spsolve
 
-from calibration import edges as edge_search
-from calibration.edges import HEIGHTS
+from calibration.edges import HEIGHTS, SCAN, VERTICAL_OF, converged_states, find_edges
 from calibration.search_space import coordinates_of, values_at
 from conveyor import (
     LAST,
@@ -202,7 +201,7 @@ def measure_by_table(
     follow: Follow | None = converged_velocities,
 ) -> dict[str, np.ndarray]:
     """The quantities at searched parameters, shape (n, 4), with interpolated edges and by the converged solution."""
-    edges = splines[edge_search.VERTICAL_OF[tension]](x[:, CONTACT])
+    edges = splines[VERTICAL_OF[tension]](x[:, CONTACT])
     return measure(parameters_at(x, tension, settings), edges, settings, follow)
 
 
@@ -216,15 +215,14 @@ def edges_directly(
     model, euler = settings["model"], settings["euler"]
     rows = np.repeat(parameters_at(x, model["tension"], settings), len(heights))
     rows["angle"], rows["z0"] = 0.5 * np.pi, heights
-    search = (edge_search.FURTHER, edge_search.RESOLUTION)
-    converged = edge_search.find_edges(rows, edge_search.SCAN, *search, edge_search.converged_states(threads))
+    converged = find_edges(rows, SCAN, converged_states(threads))
     if method == CONVERGED:
         return converged[None]
 
     def states(selected: np.ndarray) -> np.ndarray:
         return find_states(selected, euler, NO_ATTRACTORS, None, threads)
 
-    return edge_search.find_edges(rows, converged + AROUND[:, None], *search, states)[None]
+    return find_edges(rows, converged + AROUND[:, None], states)[None]
 
 
 def measure_directly(x: np.ndarray, method: str, settings: dict, threads: int) -> dict[str, np.ndarray]:

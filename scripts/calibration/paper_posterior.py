@@ -17,13 +17,21 @@ import pandas as pd
 from scipy.optimize import minimize
 from scipy.stats import chi2
 
-from calibration import paper_numbers as claims
 from calibration.credible_intervals import CONFIDENCE, open_ends, summarize, with_errors
 from calibration.edges import VERTICAL
 from calibration.effort import ENOUGH, SEARCHES
 from calibration.importance_sampling import EXACT, effective_number, log_sum, monte_carlo_error, normalize, sample
 from calibration.paper_findings import DOWN_ALONE, VELOCITIES, misfit
-from calibration.paper_numbers import CONVERGED, EULER, PARAMETERS, searched
+from calibration.paper_numbers import (
+    CONVERGED,
+    EULER,
+    PARAMETERS,
+    converged_velocities,
+    interpolate_edges,
+    measure_by_table,
+    measure_directly,
+    searched,
+)
 from calibration.search_space import bounds_of, values_at
 from conveyor.elementary import exp, log
 from pipeline import fields
@@ -203,13 +211,12 @@ def interval_rows(samples: pd.DataFrame, settings: dict) -> pd.DataFrame:
 def make(edges: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, pd.DataFrame]:
     """The tables of numbers, fits, intervals, samples and frictions."""
     model, numbers = settings["model"], settings["numbers"]
-    splines, printed = claims.interpolate_edges(edges), searched(settings)
+    splines, printed = interpolate_edges(edges), searched(settings)
 
     def quantities(x: np.ndarray, tension: str, velocities: bool = True) -> dict[str, np.ndarray]:
-        follow = claims.converged_velocities if velocities else None
-        return claims.measure_by_table(x, splines, tension, settings, follow)
+        return measure_by_table(x, splines, tension, settings, converged_velocities if velocities else None)
 
-    at_printed = {method: claims.measure_directly(printed, method, settings, threads) for method in (EULER, CONVERGED)}
+    at_printed = {method: measure_directly(printed, method, settings, threads) for method in (EULER, CONVERGED)}
     shifts = {name: float(at_printed[EULER][name][0] - at_printed[CONVERGED][name][0]) for name in numbers}
     at_printed["interpolated"] = quantities(printed, model["tension"])
     rows = [number_rows(name, values, numbers) for name, values in at_printed.items()]

@@ -24,8 +24,7 @@ from conveyor import MAX_PERIOD
 from excitation import clean_drive
 from figures.caption_numbers import fig10
 from figures.caption_numbers.bifurcation import accumulation
-from operating.chart import spreads_of
-from operating.parts import POPULATIONS
+from operating.parts import POPULATIONS, differences
 from operating.regimes import SEVERAL
 from operating.transit import ENDS
 
@@ -80,7 +79,7 @@ def summarize_transit(transit: pd.DataFrame, lengths: pd.DataFrame) -> dict[str,
         "even": varied.loc[varied.spread.idxmin()].to_dict(),
         "track": transit.attrs["length"],
         "middle": ENDS[1] - ENDS[0],
-        "differences": spreads_of(transit.attrs),
+        "differences": differences(transit.attrs)["spread"],
     }
 
 

@@ -5,10 +5,11 @@ import math
 import pandas as pd
 
 from excitation import comparison as compared
+from excitation.clean_drive import MEASURES
 from excitation.estimates import CHANCE
+from operating.parts import differences
 from pipeline.templates import render
 
-MEASURES = {"velocity_05": "the slowest 5 %", "velocity_50": "the median"}
 DIRECTIONS = {"along": "along", "normal": "normal to"}
 
 
@@ -53,7 +54,7 @@ def make(
             "matters": matters,
             "verdict": compared.verdict(list(changes.values()), matters),
             "transit": comparison.attrs,
-            "parts": {name: value for name, value in comparison.attrs["spread"].items() if value and name != "seed"},
+            "parts": differences(comparison.attrs)["spread"],
             "more": compared.MORE,
             "late": comparison.set_index("drive").late.to_dict(),
         },

@@ -7,6 +7,7 @@ import pandas as pd
 
 from conveyor import UNITS
 from operating.advice import ENOUGH, EVEN, FAST, neighbours
+from operating.parts import differences
 from operating.regimes import (
     CHAOS,
     ONE,
@@ -108,12 +109,6 @@ def select_changes(aim: str, changes: pd.DataFrame) -> list[dict]:
     return own.loc[order[:MOST_CHANGES]].replace({np.nan: None}).to_dict("records")
 
 
-def spreads_of(settings: dict) -> dict[str, float]:
-    """The relative standard deviations by which parts differ, from the settings of a transit table."""
-    others = ("seed", "calibrated")
-    return {name: share for name, share in settings["spread"].items() if name not in others and share > 0.0}
-
-
 def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -> dict:
     """The settings of the transit table, how parts differ, and the advice of each aim with its best changes."""
     quantiles, errors = (advice[[f"{name}{end}" for name in QUANTILES]].to_numpy().T for end in ("", "_stderr"))
@@ -128,8 +123,7 @@ def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.Da
         "dropped": float(time_of_drop(transit.attrs["model"]["frequency"], transit.attrs["longest"])),
         "tested": tested,
         "untested": untested,
-        "spread": spreads_of(transit.attrs),
-        "calibrated": transit.attrs["spread"].get("calibrated", False),
+        **differences(transit.attrs),
         "fast": rows.get(FAST),
         "even": rows.get(EVEN),
         # Two standard errors of the difference between both spreads.

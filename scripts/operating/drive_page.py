@@ -3,8 +3,9 @@
 import numpy as np
 import pandas as pd
 
-from operating.chart import MANY_LATE, RULE_OF_THREE, spreads_of
+from operating.chart import MANY_LATE, RULE_OF_THREE
 from operating.drive import DRAWN, SEEDS, SETTLED, last_growth
+from operating.parts import differences
 from operating.regimes import is_frictionless, is_steep
 from operating.transit import ENDS
 from pipeline.templates import render
@@ -19,8 +20,7 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
         "seeds": len(SEEDS),
         "drawn": DRAWN * front.attrs["population"],
         "settled": SETTLED,
-        "spread": spreads_of(front.attrs),
-        "calibrated": front.attrs["spread"].get("calibrated", False),
+        **differences(front.attrs),
         "ends": ENDS,
         "unseen_share": RULE_OF_THREE / front.attrs["starts"],
         "found": len(front),

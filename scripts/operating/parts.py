@@ -26,6 +26,19 @@ def starts_of_box(settings: dict) -> np.ndarray:
     return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
 
 
+def differences(settings: dict) -> dict[str, dict[str, float] | bool]:
+    """How parts differ, from the settings of a transit table.
+
+    `spread` has the relative standard deviations that are not zero, by parameter, and `calibrated` says whether the
+    parameters are drawn from the samples of a calibration, too.
+    """
+    own = settings["spread"]
+    return {
+        "spread": {name: share for name, share in own.items() if name in COLUMNS and share > 0.0},
+        "calibrated": own.get("calibrated", False),
+    }
+
+
 def factors(spread: dict, count: int) -> np.ndarray:
     """Factors of the parameters in COLUMNS for each of `count` parts, shape (count, 5).
 

@@ -12,7 +12,7 @@ import pandas as pd
 from scipy.stats.mstats import mjci
 
 from conveyor import Columns, transits
-from operating.parts import IDENTICAL, POPULATIONS, population, with_calibration
+from operating.parts import IDENTICAL, POPULATIONS, differences, population, with_calibration
 from pipeline import fields, grid
 
 PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
@@ -130,14 +130,14 @@ def measure(amplitudes: np.ndarray, settings: dict, kinds: tuple[str, ...] = POP
     settings : as in `population`; `length`, `longest` and `tolerance`
     options : `threads` and `progress`
     """
-    # Parts without a spread are followed once.
-    is_spread = any(settings["spread"][name] for name in settings["spread"] if name != "seed")
-    distinct = kinds if is_spread else (IDENTICAL,)
+    # Parts without differences are followed once.
+    differ = any(differences(settings).values())
+    distinct = kinds if differ else (IDENTICAL,)
     rows = np.concatenate([population(amplitudes, settings, kind) for kind in distinct])
     table = summarize_populations(follow(rows, settings, **options), settings["starts"]).assign(
         acceleration=np.tile(amplitudes, len(distinct)), population=np.repeat(distinct, len(amplitudes))
     )
-    if not is_spread:
+    if not differ:
         table = pd.concat([table.assign(population=kind) for kind in kinds])
     return table.sort_values("acceleration", kind="stable", ignore_index=True)
 

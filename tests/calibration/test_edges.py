@@ -7,7 +7,14 @@ from calibration import edges
 from conveyor import Conveyor, parameter_table
 from conveyor.analysis.attractors.labels import classify
 
-SCAN, FURTHER = np.arange(10.0, 31.0, 2.0), 0.1 * np.arange(1.0, 11.0)
+SCAN = np.arange(10.0, 31.0, 2.0)
+
+
+@pytest.fixture(autouse=True)
+def far_tongues(monkeypatch):
+    """Tongues that are wider, and edges that are sharper, than those of the table."""
+    monkeypatch.setattr(edges, "FURTHER", 0.1 * np.arange(1.0, 11.0))
+    monkeypatch.setattr(edges, "RESOLUTION", 1e-6)
 
 
 def first_below(*intervals):
@@ -34,7 +41,7 @@ def first_below(*intervals):
     ],
 )
 def test_the_edge_lies_above_all_tongues(intervals, expected):
-    found = edges.find_edges(np.full(1, parameter_table(Conveyor())), SCAN, FURTHER, 1e-6, first_below(*intervals))
+    found = edges.find_edges(np.full(1, parameter_table(Conveyor())), SCAN, first_below(*intervals))
     # The middle of its bracket.
     assert found == pytest.approx([expected], abs=0.5e-6, nan_ok=True)
 
@@ -42,7 +49,7 @@ def test_the_edge_lies_above_all_tongues(intervals, expected):
 def test_each_row_may_have_its_own_scan():
     rows = np.full(2, parameter_table(Conveyor()))
     scan = np.array([[17.0, 10.0], [18.0, 11.0]])
-    found = edges.find_edges(rows, scan, FURTHER, 1e-6, first_below((0.0, 17.3)))
+    found = edges.find_edges(rows, scan, first_below((0.0, 17.3)))
     assert found == pytest.approx([17.3, np.nan], abs=1e-6, nan_ok=True)
 
 

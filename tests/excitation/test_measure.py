@@ -126,7 +126,7 @@ def comparison(slow: float, median: float, stderr: float = 1e-4) -> pd.DataFrame
         {"drive": WITHOUT, "velocity_05": 0.01, "velocity_50": 0.04, "late": 0.5},
     ]
     table = pd.DataFrame(rows).assign(velocity_05_stderr=stderr, velocity_50_stderr=stderr)
-    spread = {"friction": 0.15, "mass": 0.0, "seed": 2}
+    spread = {"friction": 0.15, "mass": 0.0, "calibrated": True, "seed": 2}
     table.attrs = {"matters": 0.05, "starts": 256, "length": 0.5, "longest": 20.0, "spread": spread}
     return table
 
@@ -168,6 +168,7 @@ def test_the_first_line_says_whether_the_harmonics_matter(made, slow, first):
     text = page.make(template, *(made[name] for name in names), comparison(slow, 0.04), "mine")
     assert text.splitlines()[0] == first
     assert "50 Hz" in text and "40 m/s²" in text and "| 2 | 5" in text and "nan" not in text.lower()
+    assert "the parts differ (friction 15 %)" in text
 
 
 def test_a_plate_that_throws_backwards_is_named():

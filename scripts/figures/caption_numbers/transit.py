@@ -3,7 +3,7 @@
 import pandas as pd
 
 from conveyor import NO_FLUCTUATIONS
-from operating.chart import spreads_of
+from operating.parts import differences
 from operating.regimes import CHAOS, SEVERAL
 from operating.transit import ENDS
 from pipeline.templates import format_number
@@ -16,8 +16,7 @@ def numbers(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame
     return {
         "search": transit.attrs,
         "backwards": transit.sort_values("back", na_position="first", kind="stable").iloc[-1].to_dict(),
-        "spread": spreads_of(transit.attrs),
-        "calibrated": transit.attrs["spread"].get("calibrated", False),
+        **differences(transit.attrs),
         "coexisting": amplitudes.get(SEVERAL, []),
         "chaotic": amplitudes.get(CHAOS, []),
         "uncertain": int((~drift.status.isin(("ok", NO_FLUCTUATIONS))).sum()),

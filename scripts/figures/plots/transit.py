@@ -7,8 +7,7 @@ from matplotlib.figure import Figure
 
 from figures import style
 from figures.plots.operating import draw_regimes
-from operating.chart import spreads_of
-from operating.parts import IDENTICAL, POPULATIONS, VARIED
+from operating.parts import IDENTICAL, POPULATIONS, VARIED, differences
 from operating.regimes import CHAOS
 
 COLOURS = {IDENTICAL: "#56B4E9", VARIED: "0.25"}
@@ -18,8 +17,7 @@ MARKERS = ("o", "s")
 
 def populations_of(transit: pd.DataFrame) -> tuple[str, ...]:
     """The populations to draw: parts without differences are one population."""
-    is_varied = spreads_of(transit.attrs) or transit.attrs["spread"].get("calibrated")
-    return POPULATIONS if is_varied else POPULATIONS[:1]
+    return POPULATIONS if any(differences(transit.attrs).values()) else (IDENTICAL,)
 
 
 def draw_bands(axes: Axes, transit: pd.DataFrame) -> None:
