@@ -52,7 +52,7 @@ def small_config() -> dict:
     config = merged(read_config(), TINY)
     config["figures"] = {figure: config["figures"][figure] for figure in FIGURES}
     config["companion"]["maps"] = config["map_check"]["maps"] = ["amplitudes"]
-    config["map_check"] |= {"points": 4, "cycles": 512}
+    config["map_check"]["points"] = 4
     config["uncertainty"]["claims"] = []
     tables = ("tables", "caption_tables")
     used = {table for entry in config["figures"].values() for key in tables for table in entry.get(key, {}).values()}

@@ -45,6 +45,9 @@ TABLES = {
 
 BOUNDARY = 0.5  # share of the points that lie next to a point with another label
 SEED = 1
+CYCLES = (
+    20_000  # without a period, after which a motion is chaos if its exponent is positive; as many as solver.settling
+)
 TOLERANCE = 1e-13
 CLOSE = 1e-9  # largest difference of a repeated state, in units of the plate's motion
 REPEATS = 64  # excitation cycles in a row that must repeat in a periodic motion
@@ -95,14 +98,14 @@ def repeated_period(strobes: np.ndarray, scale: np.ndarray) -> int:
     return 0
 
 
-def simulate_until_settled(row: np.ndarray, settings: dict) -> Settled:
+def simulate_until_settled(row: np.ndarray) -> Settled:
     """Simulate the motion of a row of a table until it repeats itself."""
     row = np.array(row)
     scale = modes.scales(row)[2:]
     times = np.arange(1, BLOCK + 1)[None] / row["frequency"]
     options = {"columns": ["z", "vz"], "tolerance": TOLERANCE, "reuse": False}
     period = cycles = 0
-    while not period and cycles < settings["cycles"]:
+    while not period and cycles < CYCLES:
         run = sample_runs(row[None], times, **options)
         if run.status[0] != "ok":
             break
@@ -122,7 +125,7 @@ def longest_flight(row: np.ndarray, period: int) -> float:
     return flights.max(initial=0.0) * row["frequency"]
 
 
-def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
+def brute_force(rows: np.ndarray, *, threads: int = 1, progress: str | None = None) -> dict:
     """State, period, simulated cycles and exponent of each row of a table of parameters."""
     settled: list[Settled] = [None] * len(rows)
     flights = np.zeros(len(rows))
@@ -130,7 +133,7 @@ def brute_force(rows: np.ndarray, settings: dict, *, threads: int = 1, progress:
 
     def work(begin, end):
         for k in range(begin, end):
-            settled[k] = simulate_until_settled(rows[k], settings)
+            settled[k] = simulate_until_settled(rows[k])
             ends[k] = settled[k].end
             if settled[k].period:
                 flights[k] = longest_flight(ends[k], settled[k].period)
@@ -167,5 +170,5 @@ def make(
         label, near_boundary = table.state.to_numpy()[rows], near.ravel()[rows]
         chosen.append(pd.DataFrame({"map": name, "row": rows, "near_boundary": near_boundary, "label": label}))
         parameters += [grid.product(axes, table.attrs["model"], (row, row + 1))[1] for row in rows.tolist()]
-    simulated = brute_force(np.concatenate(parameters), settings, threads=threads, progress=progress)
+    simulated = brute_force(np.concatenate(parameters), threads=threads, progress=progress)
     return pd.concat(chosen, ignore_index=True).to_dict("list") | simulated

@@ -82,11 +82,12 @@ PEERS = {
         "heyoka": (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14),
     },
 }
+MOST_EVALUATIONS = 4000  # of the force per excitation cycle of another integrator, which then gives up
 SECONDS = 0.1  # s of processor time, after which a run is not repeated
 TRUTH = 1e-14  # tolerance of the reference
 # Shortest turn: a fast run is repeated within it, so that the first repetition with a cold cache does not matter.
 TURN = 0.01  # s
-SHORT = {"duration": 1e-3, "max_evaluations": 1000}  # of runs that only compile or load the code of a method
+SHORT = {"duration": 1e-3}  # of runs that only compile or load the code of a method
 # Treatments of the event-driven solver: with and without reuse of the steps of a periodic motion.
 EXACT, NO_REUSE = "exact", "exact, nothing repeated"
 # Outcomes of runs that lead to another state of motion, or whose part is deeper in the plate than the plate's stroke.
@@ -126,12 +127,17 @@ def methods() -> list[Method]:
     return listed
 
 
+def most_evaluations(settings: dict) -> int:
+    """Force evaluations after which a run of another integrator is given up."""
+    return round(MOST_EVALUATIONS * settings["duration"] * settings["model"]["frequency"])
+
+
 def run_method(method: Method, settings: dict) -> Result:
     """The result of a run. A Taylor step of order n counts as n force evaluations, for n derivatives of the force."""
     conveyor, start = grid.conveyor_and_start(settings["model"])
     if method.treatment in peers.TREATMENTS:
         name, treatment, tolerance, _ = method
-        limit = settings["max_evaluations"]
+        limit = most_evaluations(settings)
         run = peers.run(parameter_table(conveyor, start), settings["duration"], name, treatment, tolerance, limit)
         return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status, None)
     accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
@@ -160,7 +166,7 @@ def sample_trajectory(method: Method, run: Run | None, settings: dict) -> tuple[
     times = sample_times(settings)
     if run is None:
         # Twice as many, because interpolation may need evaluations.
-        limit = 2 * settings["max_evaluations"]
+        limit = 2 * most_evaluations(settings)
         name, treatment, tolerance, _ = method
         parameters = grid.row_of(settings["model"])
         summary = peers.run(parameters, settings["duration"], name, treatment, tolerance, limit, times)

@@ -9,15 +9,14 @@ from typing_extensions import TypedDict
 from ..pipeline.settings import (
     MOST_POINTS,
     Duration,
+    Effort,
     Line,
     Name,
     Reference,
-    Seed,
     Step,
     Tolerance,
     many,
     mapping,
-    number,
     whole,
 )
 from ..pipeline.table_settings import FOLLOWED, model_of, with_model
@@ -25,14 +24,11 @@ from .scenes import CHAOTIC, SCENES
 
 Tolerances = many(Tolerance, "relative tolerances")
 Steps = many(Step, "time steps of the fixed-step methods")
-Cycles = whole("length of a run", 256, 10**9, "excitation cycles")
 Repeats = whole("repetitions", 1, 10**9)
-MaxEvaluations = whole("force evaluations after which a peer method is stopped", 1, 10**9)
 
 
 class Precision(TypedDict):
     duration: Duration
-    max_evaluations: MaxEvaluations
     repeats: Repeats
 
 
@@ -48,7 +44,6 @@ BUDGETED = {
     "attractors": 60,
     "lyapunov": 20,
 }
-Effort = number("factor of the numbers of points; below 1: a coarse table", ge=0.01, le=100)
 
 
 class SceneBudget(TypedDict):
@@ -59,13 +54,6 @@ class SceneBudget(TypedDict):
 class MapCheck(TypedDict):
     maps: many(Name, "sweeps over two parameters")
     points: whole("points of each map", 1, MOST_POINTS)
-    cycles: Cycles
-
-
-class SettlingTimes(TypedDict):
-    starts: whole("number of random initial conditions at each amplitude", 1, 10**6)
-    cycles: Cycles
-    seed: Seed
 
 
 SECTIONS = {
@@ -74,13 +62,12 @@ SECTIONS = {
     "stability": mapping("limits of stability of the methods", {"effort": Effort}),
     "scene_budget": Annotated[SceneBudget, Field(description="accuracy that each figure needs")],
     "map_check": Annotated[MapCheck, Field(description="check of state maps by brute force")],
-    "settling_times": Annotated[SettlingTimes, Field(description="time until a motion settles")],
+    "settling_times": mapping("time until a motion settles", {"effort": Effort}),
 }
 
 
 def precision_settings(config: dict, scene: str) -> dict:
-    shared = {name: config["precision"][name] for name in ("duration", "max_evaluations")}
-    return {**shared, "model": {**config["model"], **SCENES[scene]}}
+    return {"duration": config["precision"]["duration"], "model": {**config["model"], **SCENES[scene]}}
 
 
 def published_scenes(config: dict) -> dict[str, dict]:
@@ -92,7 +79,7 @@ def published_scenes(config: dict) -> dict[str, dict]:
 
 def reference_settings(config: dict) -> dict:
     """The scene whose reference is computed a second time: the jumping part."""
-    return {"duration": config["precision"]["duration"], "model": {**config["model"], **SCENES["jumping"]}}
+    return precision_settings(config, "jumping")
 
 
 def budget_settings(config: dict) -> dict:

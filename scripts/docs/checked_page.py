@@ -3,7 +3,7 @@
 import pandas as pd
 from scipy.stats import binomtest
 
-from accuracy.map_check import ACCEPTED, CLOSE, REPEATS, SIGNIFICANT, TOLERANCE
+from accuracy.map_check import ACCEPTED, CLOSE, CYCLES, REPEATS, SIGNIFICANT, TOLERANCE
 from pipeline.templates import render
 
 ROUNDING = 1e-13  # smaller differences are rounding errors
@@ -25,7 +25,7 @@ def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame) -> str:
     values = {
         "theory": theory,
         "rounding": ROUNDING,
-        "cycles": map_check.attrs["cycles"],
+        "cycles": CYCLES,
         "tolerance": TOLERANCE,
         "close": CLOSE,
         "repeats": REPEATS,

@@ -9,6 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
+from excitation.limits import MATTERS, STATEMENT
 from operating import transit
 from operating.parts import VARIED
 from pipeline import fields
@@ -80,8 +81,8 @@ def largest_changes(table: pd.DataFrame) -> pd.DataFrame:
     return worst.reset_index()
 
 
-def harmless_shares(table: pd.DataFrame, matters: float) -> pd.DataFrame:
-    """The share up to which no phase changes a velocity by more than `matters`, for each amplitude and order.
+def harmless_shares(table: pd.DataFrame) -> pd.DataFrame:
+    """The share up to which no phase changes a velocity by more than MATTERS, for each amplitude and order.
 
     It is interpolated linearly between shares of the table; NaN if even the largest one matters to no velocity.
     """
@@ -90,11 +91,11 @@ def harmless_shares(table: pd.DataFrame, matters: float) -> pd.DataFrame:
     rows = []
     for (regime, acceleration, order), own in worst.groupby(["regime", "acceleration", "order"]):
         shares, changes = np.array([0.0, *own.share]), np.array([0.0, *own.change])
-        above = np.flatnonzero(changes > matters)
+        above = np.flatnonzero(changes > MATTERS)
         limit = math.nan
         if len(above):
             place = above[0]
-            part = (matters - changes[place - 1]) / (changes[place] - changes[place - 1])
+            part = (MATTERS - changes[place - 1]) / (changes[place] - changes[place - 1])
             limit = shares[place - 1] + part * (shares[place] - shares[place - 1])
         rows.append({"regime": regime, "acceleration": acceleration, "order": order, "share": limit})
     return pd.DataFrame(rows)
@@ -109,16 +110,15 @@ def statement_of(table: pd.DataFrame) -> dict[str, float | bool]:
     the worst phase makes at the riding amplitude where it is smallest, `riding`, and where it is largest, `most`, and
     whether chaos and riding keep their limits, `holds`
     """
-    limits = table.attrs["statement"]
     worst = largest_changes(table)
-    worst = worst[worst.share == limits["share"]].assign(change=lambda rows: rows.change.abs())
+    worst = worst[worst.share == STATEMENT["share"]].assign(change=lambda rows: rows.change.abs())
     chaos = worst[(worst.regime == CHAOS) & (worst.measure == "velocity_50")].change.max()
     riding = worst[(worst.regime == RIDING) & (worst.measure == "velocity_05")]
     riding = riding.groupby("acceleration").change.max()
     return {
-        "share": limits["share"],
+        "share": STATEMENT["share"],
         "chaos": chaos,
         "riding": riding.min(),
         "most": riding.max(),
-        "holds": bool(chaos <= limits["chaos"] and riding.min() >= limits["riding"]),
+        "holds": bool(chaos <= STATEMENT["chaos"] and riding.min() >= STATEMENT["riding"]),
     }

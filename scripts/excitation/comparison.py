@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
+from excitation.limits import MATTERS
 from excitation.overlay import drive_of, harmonics_above_noise
 from operating import transit
 from operating.parts import VARIED
@@ -51,9 +52,9 @@ def change(comparison: pd.DataFrame, name: str) -> dict[str, float]:
     return {"after": after, "before": before, "change": (after - before) / size, "stderr": error}
 
 
-def verdict(changes: list[dict[str, float]], matters: float) -> str:
-    """Whether harmonics matter: whether a velocity changes by more than `matters`, and by more than chance."""
-    large = [one for one in changes if abs(one["change"]) > matters]
+def verdict(changes: list[dict[str, float]]) -> str:
+    """Whether harmonics matter: whether a velocity changes by more than MATTERS, and by more than chance."""
+    large = [one for one in changes if abs(one["change"]) > MATTERS]
     if any(abs(one["change"]) > SURE * one["stderr"] for one in large):
         return YES
     return PERHAPS if large or any(math.isnan(one["change"]) for one in changes) else NO

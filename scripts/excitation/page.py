@@ -7,6 +7,7 @@ import pandas as pd
 from excitation import comparison as compared
 from excitation.clean_drive import MEASURES
 from excitation.estimates import CHANCE
+from excitation.limits import MATTERS
 from operating.parts import differences
 from pipeline.templates import render
 
@@ -36,7 +37,6 @@ def make(
     drive = parameters.set_index("parameter").to_dict("index")
     fit = quality.iloc[0].to_dict()
     changes = {label: compared.change(comparison, name) for name, label in MEASURES.items()}
-    matters = comparison.attrs["matters"]
     return render(
         template,
         {
@@ -51,8 +51,8 @@ def make(
             "other": not math.isnan(fit["other_frequency"]),
             "chance": CHANCE,
             "changes": changes,
-            "matters": matters,
-            "verdict": compared.verdict(list(changes.values()), matters),
+            "matters": MATTERS,
+            "verdict": compared.verdict(list(changes.values())),
             "transit": comparison.attrs,
             "parts": differences(comparison.attrs)["spread"],
             "more": compared.MORE,

@@ -7,7 +7,7 @@ from pydantic import Field
 from typing_extensions import TypedDict
 
 from ..operating.settings import transit_settings
-from ..pipeline.settings import Acceleration, Line, check_ascending, many, mapping, number, whole, word
+from ..pipeline.settings import Acceleration, Line, check_ascending, many, number, whole, word
 
 
 class Excitation(TypedDict):
@@ -22,15 +22,6 @@ class CleanDrive(TypedDict):
     orders: many(whole("order of a harmonic", 2, 20), "orders of the harmonic")
     shares: many(number("share of a harmonic, over the fundamental", gt=0, le=1), "shares", check=check_ascending)
     phases: whole("phases of the harmonic, over a whole turn", 1, 360)
-    matters: number("relative change of a velocity from which harmonics matter", gt=0, le=10)
-    statement: mapping(
-        "limits of the statement on chaos",
-        {
-            "share": number("share of the harmonic", gt=0, le=1),
-            "chaos": number("largest accepted change of the median in chaos", gt=0, le=10),
-            "riding": number("least accepted change of the slowest 5 % of riding parts", gt=0, le=10),
-        },
-    )
 
 
 SECTIONS = {
@@ -44,7 +35,7 @@ def comparison_settings(config: dict) -> dict:
     transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
     measured = ("frequency", "angle", "phase_shift", "harmonics")
     model = {name: value for name, value in transit["model"].items() if name not in measured}
-    return {**transit, "model": model, "matters": config["clean_drive"]["matters"]}
+    return {**transit, "model": model}
 
 
 def clean_drive_settings(config: dict) -> dict:

@@ -16,6 +16,10 @@ from operating.transit import PROBABILITIES, follow, quantiles, spread_stderr
 from operating.transit import relative_spread as spread_of
 from pipeline import fields, grid
 
+# By an effort of 1, with which the standard error of a diffusion coefficient is about 5 %.
+AMPLITUDES = 8  # at most, among those at which all initial conditions end in chaos
+RUNS = 64  # initial conditions per amplitude
+CYCLES = 4096  # excitation cycles of each run
 FORGOTTEN = 200  # excitation cycles before the first sample, after which the transient has decayed
 RUN_FAILED = "a run failed"
 LENGTHS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of tracks, in units of transit.length: shorter and longer than the user's
@@ -62,7 +66,7 @@ def spaced(amplitudes: np.ndarray, count: int) -> np.ndarray:
 
 def positions(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> np.ndarray:
     """Positions x (m) of parts, shape (n, cycles + 1), once per excitation cycle; NaN where a run failed."""
-    cycles = FORGOTTEN + np.arange(settings["cycles"] + 1)
+    cycles = FORGOTTEN + np.arange(max(64, round(settings["effort"] * CYCLES)) + 1)
     times = cycles / rows["frequency"][:, None]
     options = {"tolerance": settings["tolerance"], "threads": threads, "chunk": 8, "progress": progress}
     return sample_runs(rows, times, columns=["x"], **options).x
@@ -92,7 +96,7 @@ def drift_table(amplitudes: np.ndarray, settings: dict, **options) -> pd.DataFra
     columns = [column.name for column in TABLES["drift"]]
     if len(amplitudes) == 0:
         return pd.DataFrame(columns=columns)
-    runs = {**settings, "starts": settings["runs"]}
+    runs = {**settings, "starts": max(4, round(settings["effort"] * RUNS))}
     height = starts_of_box(runs)[:, 0]
     is_low = np.argsort(np.argsort(height, kind="stable")) < len(height) // 2
     rows = population(amplitudes, runs, IDENTICAL)
@@ -138,6 +142,8 @@ def lengths_table(regimes: pd.DataFrame, drifts: pd.DataFrame, settings: dict, *
 def make(regimes: pd.DataFrame, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
     """The tables of drift and of track lengths for the settings of the config."""
     options = {"threads": threads, "progress": progress}
-    chaotic = spaced(amplitudes_in(CHAOS, regimes, settings), settings["amplitudes"])
+    chaotic = spaced(
+        amplitudes_in(CHAOS, regimes, settings), max(OF_EACH_REGIME, round(settings["effort"] * AMPLITUDES))
+    )
     drifts = drift_table(chaotic, settings, **options)
     return {"drift": drifts, "track_lengths": lengths_table(regimes, drifts, settings, **options)}

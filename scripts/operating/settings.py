@@ -12,6 +12,7 @@ from ..pipeline.settings import (
     MODEL_TYPES,
     Acceleration,
     Accelerations,
+    Effort,
     Seed,
     Tolerance,
     Velocity,
@@ -59,12 +60,6 @@ class Transit(TypedDict):
     length: number("length of the track", "m", ge=1e-3, le=1e4)
     longest: number("time after which a part is late", "s", gt=0, le=1e5)
     parts: whole("parts with random initial conditions per amplitude", 8, 10**6)
-
-
-class Drift(TypedDict):
-    amplitudes: whole("largest number of amplitudes", 1, 10**4)
-    runs: whole("initial conditions per amplitude", 4, 10**5)
-    cycles: whole("excitation cycles of each run", 64, 10**6, "excitation cycles")
 
 
 class Advice(TypedDict):
@@ -124,9 +119,7 @@ SECTIONS = {
     "operating": Annotated[Operating, Field(description="shares of the attractors over the amplitude")],
     "parts": Annotated[Parts, Field(description="how parts differ")],
     "transit": Annotated[Transit, Field(description="velocities of parts along a track over the amplitude")],
-    "drift": Annotated[
-        Drift, Field(description="drift and diffusion in chaos, and the spread over the track's length")
-    ],
+    "drift": mapping("drift and diffusion in chaos, and the spread over the track's length", {"effort": Effort}),
     "advice": Annotated[Advice, Field(description="advice on where to run the conveyor")],
     "track": Annotated[Track, Field(description="velocity over inclination and phase shift")],
     "throws": Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")],

@@ -20,6 +20,7 @@ from orbits.seeds import seeds
 from pipeline import fields, grid
 from pipeline.rule_log import JobError
 
+MOST_ORBITS = 30_000  # after which no further branch is followed: five times as many as the paper's conveyor has
 TABLES = {
     "branches": (
         fields.count("branch", "number of the branch"),
@@ -105,7 +106,7 @@ def explore_branches(parameters: np.ndarray, orbits: list[Orbit], settings: dict
     """
     options = tuple(settings["limits"]), settings["max_period"]
     if "seeds" in settings:
-        return explore_bifurcations(parameters, orbits, *options, settings["most"])
+        return explore_bifurcations(parameters, orbits, *options, MOST_ORBITS)
     branches = []
     for period in sorted({orbit.period for orbit in orbits}):
         new = [
@@ -113,7 +114,7 @@ def explore_branches(parameters: np.ndarray, orbits: list[Orbit], settings: dict
             for orbit in orbits
             if orbit.period == period and not any(on_branch(parameters, branch, orbit) for branch in branches)
         ]
-        left = settings["most"] - sum(len(branch.orbits) for branch in branches)
+        left = MOST_ORBITS - sum(len(branch.orbits) for branch in branches)
         branches += explore_bifurcations(parameters, new, *options, left)
     return branches
 

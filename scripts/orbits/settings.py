@@ -48,7 +48,6 @@ class Orbits(TypedDict):
     ]
     limits: interval(Acceleration, "amplitudes between which branches are followed")
     max_period: whole("longest period that is followed", 1, 64, "excitation cycles")
-    most: whole("orbits after which no further branch is followed", 1, 10**9)
     model: NotRequired[Model]
 
 

@@ -218,6 +218,7 @@ Method = word("event, or a method with a fixed step", "event", *FIXED_STEP_METHO
 Tolerance = number("relative error per step of the method event", ge=1e-14, le=1e-2)
 Step = number("time step of the fixed-step methods", "s", ge=1e-12, le=1e-1)
 Seed = whole("seed of the random numbers", 0, 2**32 - 1)
+Effort = number("factor of the numbers of points and runs; below 1, tables are coarse", ge=0.01, le=100)
 Period = whole("longest period considered", 1, 64, "excitation cycles")
 
 

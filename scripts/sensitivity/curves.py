@@ -55,10 +55,12 @@ POWERS = {
     "stiffness": lambda p: ParameterPath(0.0, 1.0),
     "frequency": lambda p: ParameterPath(-1.0, -2.0 * p),
 }
+DOUBLINGS = 3  # of the cascade, by an effort of 1
+POINTS = 250  # on each side of a curve, after which it ends
 ENDS = {
     CurveEnd.LIMIT: "limit of the config",
     CurveEnd.STEP: "no smooth curve beyond",
-    CurveEnd.LENGTH: "number of points of the config",
+    CurveEnd.LENGTH: f"after {POINTS} points",
     CurveEnd.CLOSED: "closed",
     CurveEnd.LOST: "no orbit beyond",
     CurveEnd.HALVED: "the orbit has half the period here",
@@ -82,9 +84,11 @@ def place_columns(parameters: np.ndarray, point: BifurcationPoint, parameter: st
     }
 
 
-def angle_curve(point: BifurcationPoint, angle: float, settings: dict) -> BifurcationCurve:
-    """The curve over the angle of throw (rad), on which Γ is constant, so that â is proportional to 1/sin φ."""
-    reach = np.log(settings["factors"]["angle"])
+def angle_curve(point: BifurcationPoint, angle: float, reach: float) -> BifurcationCurve:
+    """The curve over the angle of throw (rad), on which Γ is constant, so that â is proportional to 1/sin φ.
+
+    reach : largest logarithm of the factor on the angle
+    """
     highest = min(reach, np.log(STEEPEST / angle))
     parts = np.linspace(-reach, highest, 2 * int(np.ceil(reach / STEP)) + 1)
     count = len(parts)
@@ -92,16 +96,16 @@ def angle_curve(point: BifurcationPoint, angle: float, settings: dict) -> Bifurc
     return BifurcationCurve([point] * count, parts, np.full(count, np.nan), np.zeros(count, np.int64), [], ends)
 
 
-def follow_curve(parameters: np.ndarray, point: BifurcationPoint, parameter: str, settings: dict) -> BifurcationCurve:
-    """The curve of a bifurcation over a parameter."""
+def follow_curve(parameters: np.ndarray, point: BifurcationPoint, parameter: str, factor: float) -> BifurcationCurve:
+    """The curve of a bifurcation over a parameter, to a largest `factor` by which it decreases and increases."""
+    reach = np.log(factor)
     if parameter == "angle":
-        return angle_curve(point, parameters["angle"], settings)
+        return angle_curve(point, parameters["angle"], reach)
     path = POWERS[parameter](point.groups.exponent)
-    reach = np.log(settings["factors"][parameter])
     limits = LIMITS, (-reach, reach)
     if point.kind == GRAZING:
         return follow_grazing_curve(point, path, *limits, step=0.5 * STEP)
-    return follow_bifurcation_curve(point, path, *limits, longest_step=STEP, most=settings["points"])
+    return follow_bifurcation_curve(point, path, *limits, longest_step=STEP, most=POINTS)
 
 
 def curve_rows(
@@ -147,8 +151,8 @@ def make(
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
     parameters = grid.row_of(settings["model"])
-    options = settings["curves"]
-    chosen = select_bifurcations(parameters, folds_and_doublings, cascade, settings, options["doublings"])
+    doublings = max(1, round(settings["effort"] * DOUBLINGS))
+    chosen = select_bifurcations(parameters, folds_and_doublings, cascade, doublings)
     chosen = [one for one in chosen if one.point is not None and (one.kind != GRAZING or one.rides)]
     tasks = [(bifurcation, parameter) for bifurcation in chosen for parameter in POWERS]
     tasks += [(bifurcation, "angle") for bifurcation in chosen]
@@ -157,7 +161,7 @@ def make(
     def work(begin, end):
         for n in range(begin, end):
             bifurcation, parameter = tasks[n]
-            curve = follow_curve(parameters, bifurcation.point, parameter, options)
+            curve = follow_curve(parameters, bifurcation.point, parameter, settings["factors"][parameter])
             rows_of_curves[n] = curve_rows(parameters, bifurcation, parameter, curve)
 
     for_each_chunk(work, len(tasks), threads=threads, chunk=1, progress=progress)

@@ -65,6 +65,9 @@ TABLES = {
         fields.text("status", "ok, or the reason for no result"),
     ),
 }
+# By an effort of 1.
+DOUBLINGS = 8  # of the cascade, from which derivatives are extrapolated to its accumulation
+HEIGHTS = 4  # amplitudes with a critical height, evenly spread
 # Groups with an influence on bifurcations, and on points of basin boundaries.
 BIFURCATION_GROUPS, BOUNDARY_GROUPS = ("damping", "stiffness", "exponent"), GROUP_NAMES[:-1]
 INITIAL_CONDITION = ("z0", "vz0")
@@ -281,8 +284,8 @@ def group_rows(point: CriticalPoint) -> Iterator[dict]:
         }
 
 
-def boundary_points(critical: pd.DataFrame, settings: dict) -> Iterator[CriticalPoint]:
-    """The critical amplitude of a part from rest, and critical heights; none of them without a critical height."""
+def boundary_points(critical: pd.DataFrame, heights: int) -> Iterator[CriticalPoint]:
+    """The critical amplitude of a part from rest, and `heights` critical heights; none without a critical height."""
     parameters = grid.row_of({**critical.attrs["model"], "z0": 0.0})
     edges = critical[critical.is_critical].sort_values("acceleration", kind="stable")
     if edges.empty:
@@ -293,7 +296,7 @@ def boundary_points(critical: pd.DataFrame, settings: dict) -> Iterator[Critical
     rest = replace_parameters(rest, acceleration=edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest["z0"])))])
     yield differentiate_boundary("critical_amplitude", rest, "acceleration", REACH["acceleration"])
     # Evenly spaced rows without the first and the last one.
-    inner = np.linspace(0, len(edges) - 1, settings["heights"] + 2)[1:-1].round().astype(int)
+    inner = np.linspace(0, len(edges) - 1, heights + 2)[1:-1].round().astype(int)
     for edge in edges.iloc[np.unique(inner)].itertuples():
         here = replace_parameters(parameters, acceleration=edge.acceleration)
         here["z0"] = edge.z0
@@ -305,10 +308,12 @@ def make(
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
     parameters = grid.row_of(settings["model"])
-    chosen = select_bifurcations(parameters, folds_and_doublings, cascade, settings, settings["doublings"])
+    doublings = max(1, round(settings["effort"] * DOUBLINGS))
+    chosen = select_bifurcations(parameters, folds_and_doublings, cascade, doublings)
     bifurcations = [differentiate_bifurcation(parameters, bifurcation) for bifurcation in chosen]
     accumulation = differentiate_accumulation(parameters, [point for point in bifurcations if point.doubling])
-    points = [*bifurcations, *([accumulation] if accumulation else []), *boundary_points(critical, settings)]
+    heights = max(1, round(settings["effort"] * HEIGHTS))
+    points = [*bifurcations, *([accumulation] if accumulation else []), *boundary_points(critical, heights)]
     physical = [row for point in points for row in physical_rows(point)]
     groups = [row for point in points for row in group_rows(point)]
     return {

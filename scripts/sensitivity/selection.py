@@ -17,6 +17,7 @@ from conveyor import (
 from pipeline import fields
 
 LONGEST_PERIOD = 1  # excitation cycles, of the folds, doublings and grazings; longer orbits have too many to show
+MOST = 6  # bifurcations of each kind, those at the lowest amplitudes; the paper's conveyor has five
 # Largest relative difference of the amplitudes of one bifurcation in two tables, or in a table and solved again.
 SAME = 1e-6
 COLUMNS = (
@@ -52,12 +53,9 @@ def solve_again(parameters: np.ndarray, row: pd.Series) -> BifurcationPoint | No
 
 
 def select_bifurcations(
-    parameters: np.ndarray, bifurcations: pd.DataFrame, cascade: pd.DataFrame, settings: dict, doublings: int
+    parameters: np.ndarray, bifurcations: pd.DataFrame, cascade: pd.DataFrame, doublings: int
 ) -> list[Selected]:
-    """Folds, period doublings and grazings up to LONGEST_PERIOD, by amplitude, then the first doublings of the cascade.
-
-    settings : with `most`, the number of each kind
-    """
+    """Folds, doublings and grazings up to LONGEST_PERIOD, by amplitude, then the first doublings of the cascade."""
     first = cascade.sort_values("number", kind="stable").head(doublings).assign(kind="period_doubling")
     others = bifurcations[bifurcations.period <= LONGEST_PERIOD].sort_values("acceleration", kind="stable")
     repeated = [
@@ -66,7 +64,7 @@ def select_bifurcations(
         for row in others.itertuples()
     ]
     others = others[~np.array(repeated, dtype=bool)].assign(number=0)
-    rows = pd.concat([others[others.groupby("kind").cumcount() < settings["most"]], first])
+    rows = pd.concat([others[others.groupby("kind").cumcount() < MOST], first])
     return [
         Selected(
             row["kind"],

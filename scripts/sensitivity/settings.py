@@ -5,24 +5,19 @@ from typing import Annotated
 from pydantic import Field
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import Name, mapping, number, whole
+from ..pipeline.settings import Effort, Name, mapping, number
 from ..pipeline.table_settings import model_of
 
 Factor = number("factor by which a parameter is increased and decreased", gt=1, le=1e3)
 
 
-class Curves(TypedDict):
-    doublings: whole("doublings that are followed in two parameters", 0, 12)
-    factors: mapping("range of each parameter", dict.fromkeys(("damping", "stiffness", "frequency", "angle"), Factor))
-    points: whole("largest number of points on each side of a curve", 10, 10**5)
-
-
 class Sensitivity(TypedDict):
-    most: whole("number of bifurcations of each kind, those at the lowest amplitudes", 1, 10**4)
-    doublings: whole("doublings whose derivatives are extrapolated", 1, 12)
     critical: Annotated[Name, Field(description="entry of `critical` over the amplitude alone")]
-    heights: whole("number of amplitudes of this entry", 1, 1000)
-    curves: Annotated[Curves, Field(description="bifurcation curves in two parameters")]
+    effort: Effort
+    factors: mapping(
+        "range of each parameter in bifurcation curves",
+        dict.fromkeys(("damping", "stiffness", "frequency", "angle"), Factor),
+    )
 
 
 SECTIONS = {
@@ -31,12 +26,12 @@ SECTIONS = {
 
 
 def derivatives_settings(config: dict) -> dict:
-    own = {key: value for key, value in config["sensitivity"].items() if key != "curves"}
+    own = {key: config["sensitivity"][key] for key in ("critical", "effort")}
     return {**own, "model": model_of(config, "orbits")}
 
 
 def curves_settings(config: dict) -> dict:
-    own = {key: config["sensitivity"][key] for key in ("most", "curves")}
+    own = {key: config["sensitivity"][key] for key in ("effort", "factors")}
     return {**own, "model": model_of(config, "orbits", normal=True)}
 
 

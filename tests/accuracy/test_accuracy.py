@@ -38,11 +38,7 @@ def test_benchmark_reaches_its_goals():
 
 def compare(scene: str, duration: float, threads: int) -> pd.DataFrame:
     """Work and precision of the solver and of two peers, with the settings and the times as attributes."""
-    settings = {
-        "duration": duration,
-        "model": CONFIG["model"] | SCENES[scene],
-        "max_evaluations": CONFIG["precision"]["max_evaluations"],
-    }
+    settings = {"duration": duration, "model": CONFIG["model"] | SCENES[scene]}
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(precision, "TOLERANCES", (1e-4, 1e-8, 1e-12))
         patch.setattr(precision, "STEPS", (5e-7,))

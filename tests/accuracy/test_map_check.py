@@ -7,13 +7,16 @@ import pytest
 from accuracy import map_check
 from conveyor import Conveyor, Start, classify, parameter_table
 
-SETTINGS = {"cycles": 1024}
+
+@pytest.fixture(autouse=True)
+def few_cycles(monkeypatch):
+    monkeypatch.setattr(map_check, "CYCLES", 1024)
 
 
-def found(*starts: tuple[float, float], **changes) -> dict:
+def found(*starts: tuple[float, float]) -> dict:
     """The result of brute force for amplitudes (m/s²) and initial heights (m)."""
     rows = np.stack([parameter_table(Conveyor(acceleration=amplitude), Start(height)) for amplitude, height in starts])
-    return map_check.brute_force(rows, SETTINGS | changes)
+    return map_check.brute_force(rows)
 
 
 def test_the_states_of_the_paper():
@@ -25,9 +28,10 @@ def test_the_states_of_the_paper():
     assert np.isnan(states["exponent"][:3]).all()
 
 
-def test_a_motion_without_a_period_and_without_a_positive_exponent_is_undecided():
+def test_a_motion_without_a_period_and_without_a_positive_exponent_is_undecided(monkeypatch):
     """Close to the doubling at 54.218 m/s² jumps settle in thousands of cycles."""
-    states = found((54.2182, 3e-4), cycles=256)
+    monkeypatch.setattr(map_check, "CYCLES", 256)
+    states = found((54.2182, 3e-4))
     assert states["state"].tolist() == ["undecided"]
     assert states["exponent"][0] < 0.0
 
@@ -60,7 +64,6 @@ def test_a_wrong_label_of_a_map_is_found():
     """A map of two points; one has the label of the other point."""
     table = pd.DataFrame({"state": ["first", "first"]})
     table.attrs = {"axes": {"acceleration": [40.0], "z0": [0.0, 3e-4]}, "model": {}}
-    settings = SETTINGS | {"maps": ["one"], "points": 2}
-    made = map_check.make(settings, [table])
+    made = map_check.make({"maps": ["one"], "points": 2}, [table])
     assert made["label"] == ["first", "first"]
     assert made["state"].tolist() == ["first", "second"]

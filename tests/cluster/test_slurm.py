@@ -1,13 +1,16 @@
 """The README's command for a cluster, on a Slurm of one node that is started for these tests."""
 
+import math
 import re
 import shlex
 
 import pytest
 import yaml
-from project import ROOT, Project, copy_project
+from project import ROOT, Project, copy_project, merged, read_config
 
 import local_slurm
+from workflow.config.entries import count_points, resolve
+from workflow.config.sharing import THREADS, seconds_of
 
 GUIDE = ROOT / "workflow/templates/site/own_sweep.md"
 OBSTACLE = local_slurm.obstacle()
@@ -15,7 +18,9 @@ pytestmark = pytest.mark.skipif(OBSTACLE is not None, reason=f"no Slurm can be s
 
 # The sweep of the guide, in three shards.
 MINE = yaml.safe_load(re.search(r"```yaml\n(.*?)```", GUIDE.read_text(), re.DOTALL)[1])
-OVERLAY = {**MINE, "sharing": {"job_seconds": 1e-6, "most_jobs": 3}}
+ENTRY = resolve(merged(read_config(), MINE), "sweeps", "mine")
+ROWS = math.ceil(count_points(ENTRY["axes"]) / 3)
+OVERLAY = {**MINE, "sharing": {"job_seconds": seconds_of(ENTRY, ROWS) / THREADS}}
 TABLE, FIGURE = "results/sweeps/mine.parquet", "figures/fig22.pdf"
 SHARD = "rule_shards_wildcards_mine_1"  # as Snakemake names its job to Slurm
 COMPUTING = 120.0  # s

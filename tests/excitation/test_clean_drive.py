@@ -12,7 +12,7 @@ SHARES = (0.02, 0.05, 0.1)
 PHASES = (0.0, np.pi / 2.0, np.pi, -np.pi / 2.0)
 
 
-def drives(riding: float, chaos: float, limits: dict | None = None) -> pd.DataFrame:
+def drives(riding: float, chaos: float) -> pd.DataFrame:
     """Velocities that a harmonic in quadrature changes by `riding` or `chaos` times its share; the median in halves."""
     rows = []
     for acceleration, regime, gain in ((32.0, "riding", riding), (80.0, "chaos", chaos)):
@@ -21,9 +21,7 @@ def drives(riding: float, chaos: float, limits: dict | None = None) -> pd.DataFr
             change = 0.0 if order == 0 else gain * share * np.sin(phase)
             rows.append((acceleration, regime, order, share, phase, 0.01 * (1.0 + change), 0.04 * (1.0 + 0.5 * change)))
     names = ["acceleration", "regime", "order", "share", "phase", "velocity_05", "velocity_50"]
-    table = pd.DataFrame(rows, columns=names).assign(velocity_05_stderr=1e-4, velocity_50_stderr=4e-4)
-    table.attrs["statement"] = limits or {"share": 0.05, "chaos": 0.05, "riding": 0.1}
-    return table
+    return pd.DataFrame(rows, columns=names).assign(velocity_05_stderr=1e-4, velocity_50_stderr=4e-4)
 
 
 def test_drives_have_one_harmonic_each_and_phases_over_a_turn():
@@ -53,7 +51,7 @@ def test_the_worst_phase_keeps_its_sign():
 
 
 def test_harmless_shares_are_interpolated():
-    limits = harmless_shares(drives(2.0, 0.4), 0.05).set_index(["acceleration", "order"]).share
+    limits = harmless_shares(drives(2.0, 0.4)).set_index(["acceleration", "order"]).share
     assert limits[32.0, 2] == limits[32.0, 3] == pytest.approx(0.025)
     assert np.isnan(limits[80.0, 2])
 

@@ -8,6 +8,7 @@ from project import ROOT, read_config
 from prose import typed
 
 from figures import captions
+from figures.caption_numbers import bifurcation
 from figures.titles import split_title, title_of
 
 CONFIG = read_config()
@@ -84,7 +85,7 @@ def test_plateau_and_exponent_of_fig_22():
     assert "motion there is 36 1/s." in text
 
 
-def test_chaos_before_the_accumulation_is_mentioned():
+def test_chaos_before_the_accumulation_is_mentioned(monkeypatch):
     acceleration = np.arange(55.0, 70.0, 0.5)
     spectrum = pd.concat(
         pd.DataFrame(
@@ -99,7 +100,7 @@ def test_chaos_before_the_accumulation_is_mentioned():
     )
     cascade = pd.DataFrame({"accumulation": [np.nan, 62.77]})
     orbits = pd.DataFrame({"cycle": [1, 2, 1, 2]})
-    orbits.attrs |= {"most": 3, "max_period": 4}
+    orbits.attrs["max_period"] = 4
     others = {"spectrum": spectrum, "branches": orbits, "bifurcations": pd.DataFrame({"kind": ["fold"]})}
     text = caption("bifurcation", {"longest_period": 2}, cascade=cascade, **others)
     assert "accumulate at 62.77 m/s²." in text
@@ -107,9 +108,9 @@ def test_chaos_before_the_accumulation_is_mentioned():
     assert f"; {100 * 2 / 14:.0f} % of the amplitudes" in text  # 63.0 and the window at 66.0
     without = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **others)
     assert without.endswith("attractors. No cascade of period doublings was found.")
-    orbits.attrs["most"] = 2
+    monkeypatch.setattr(bifurcation, "MOST_ORBITS", 2)
     ended = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **others)
-    assert "The search ended after 2 orbits; a larger ``orbits.most``" in ended
+    assert "The search ended after 2 orbits; narrower ``orbits.limits``" in ended
     assert "None of these orbits folds" not in ended
     straight = others | {"bifurcations": pd.DataFrame({"kind": ["grazing"]})}
     text = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **straight)
@@ -233,23 +234,19 @@ def test_derivatives_that_do_not_pass_the_check_are_named():
     row |= {"status": "ok", "acceleration": 40.0}
     wrong = row | {"derivative": 1.0, "elasticity": 1.0, "status": "differences disagree"}
     derivatives = pd.DataFrame([row, wrong])
-    derivatives.attrs = {"most": 6}
     curves = pd.DataFrame({"parameter": [], "kind": [], "begin": [], "meeting": [], "status": [], "damping_group": []})
     curves.attrs = {"model": {"exponent": 1.5}}
     tables = {"continued": curves, "meetings": curves, "bifurcations": pd.DataFrame({"period": [], "kind": []})}
     text = caption("sensitivity", derivatives=derivatives, **tables)
     assert "No derivative passed the check" in text
     right = pd.DataFrame([row | {"derivative": 2.0, "difference": 2.0 + 2e-8, "elasticity": 1.0}, wrong])
-    right.attrs = derivatives.attrs
     text = caption("sensitivity", derivatives=right, **tables)
     assert "to a relative error of 1e-8 (derivatives that fail this check: 1)" in text
     lost = row | {"derivative": np.nan, "elasticity": np.nan, "status": "not found again"}
     both = pd.concat([right, pd.DataFrame([lost, lost])])
-    both.attrs = derivatives.attrs
     text = caption("sensitivity", derivatives=both, **tables)
     assert "(derivatives that fail this check: 1, that were not found: 2)" in text
     none = derivatives.assign(kind="critical_amplitude")
-    none.attrs = derivatives.attrs
     assert "There is no derivative" in caption("sensitivity", derivatives=none, **tables)
 
 

@@ -202,8 +202,9 @@ def test_amplitudes_of_a_regime():
 
 
 def test_drift_predicts_the_spread_and_tracks_with_coexisting_motions_keep_theirs(monkeypatch):
-    monkeypatch.setattr(drift, "LENGTHS", (0.25, 1.0))
-    settings = TABLES["operating/drift"](read_config()) | {"starts": 64, "runs": 16, "cycles": 2048, "amplitudes": 1}
+    for name, value in (("LENGTHS", (0.25, 1.0)), ("AMPLITUDES", 1), ("OF_EACH_REGIME", 1)):
+        monkeypatch.setattr(drift, name, value)
+    settings = TABLES["operating/drift"](read_config()) | {"starts": 64, "effort": 0.4}
     found = drift.make(REGIMES, settings | {"longest": 10.0})
     (row,) = found["drift"].to_dict("records")
     assert row["status"] == "ok"

@@ -159,13 +159,14 @@ def test_orbits_on_a_known_branch_start_no_new_branch(monkeypatch):
         "explore_bifurcations",
         lambda parameters, seeds, *rest: [branch(one, [one]) for seed in seeds for one in found[seed.name]],
     )
-    settings = {"limits": [20.0, 90.0], "max_period": 2, "most": 1000}
+    settings = {"limits": [20.0, 90.0], "max_period": 2}
     assert [one.name for one in branches.explore_branches(None, starts, settings)] == ["once", "double", "apart"]
 
 
-def test_no_branch_is_followed_after_the_largest_number_of_orbits():
+def test_no_branch_is_followed_after_the_largest_number_of_orbits(monkeypatch):
+    monkeypatch.setattr(branches, "MOST_ORBITS", 1)
     section = read_config("orbits")["orbits"]
-    settings = {**section, "limits": [38.0, 42.0], "max_period": 1, "most": 1, "model": MODEL}
+    settings = {**section, "limits": [38.0, 42.0], "max_period": 1, "model": MODEL}
     tables = branches.make({key: value for key, value in settings.items() if key != "seeds"})
     assert set(tables["branches"]["branch"]) == {0}
 

@@ -34,13 +34,13 @@ def tables():
 
 @pytest.fixture(scope="module")
 def made(tables):
-    found = derivatives.make(*tables, {**SETTINGS, "heights": 1, "model": MODEL})
+    found = derivatives.make(*tables, {**SETTINGS, "effort": 0.3, "model": MODEL})
     return {kind: pd.DataFrame(columns) for kind, columns in found.items()}
 
 
 @pytest.fixture(scope="module")
 def chosen(tables):
-    return selection.select_bifurcations(grid.row_of(MODEL), *tables[:2], SETTINGS, 2)
+    return selection.select_bifurcations(grid.row_of(MODEL), *tables[:2], 2)
 
 
 def test_every_bifurcation_is_chosen_once(chosen):
@@ -54,10 +54,11 @@ def test_every_bifurcation_is_chosen_once(chosen):
     assert all(one.point is not None for one in chosen)
 
 
-def test_only_the_lowest_bifurcations_of_each_kind_are_chosen(tables):
+def test_only_the_lowest_bifurcations_of_each_kind_are_chosen(tables, monkeypatch):
     """A fold above the first one, with one bifurcation of each kind; doublings of the cascade are not counted."""
     both = pd.concat([tables[0], tables[0].iloc[[0]].assign(acceleration=90.0)])
-    found = selection.select_bifurcations(grid.row_of(MODEL), both, tables[1], {**SETTINGS, "most": 1}, 2)
+    monkeypatch.setattr(selection, "MOST", 1)
+    found = selection.select_bifurcations(grid.row_of(MODEL), both, tables[1], 2)
     assert [(one.kind, one.acceleration > 80.0) for one in found].count(("fold", True)) == 0
     assert len(found) == len(ROWS)
 
@@ -65,7 +66,7 @@ def test_only_the_lowest_bifurcations_of_each_kind_are_chosen(tables):
 def test_a_point_that_is_not_found_again_keeps_its_row_with_a_reason(tables):
     lost = tables[0].iloc[[1]].assign(acceleration=33.0)
     parameters = grid.row_of(MODEL)
-    (one,) = selection.select_bifurcations(parameters, lost, tables[1].iloc[:0], SETTINGS, 0)
+    (one,) = selection.select_bifurcations(parameters, lost, tables[1].iloc[:0], 0)
     assert one.point is None
     rows = list(derivatives.physical_rows(derivatives.differentiate_bifurcation(parameters, one)))
     assert {row["status"] for row in rows} == {"not found again"}
@@ -77,7 +78,7 @@ def test_a_conveyor_without_critical_heights_has_no_critical_amplitude(tables, r
     none = tables[2].assign(is_critical=False)
     none.attrs = tables[2].attrs
     found = derivatives.make(
-        tables[0].iloc[:rows], tables[1].iloc[:0], none, {**SETTINGS, "heights": 1, "model": MODEL}
+        tables[0].iloc[:rows], tables[1].iloc[:0], none, {**SETTINGS, "effort": 0.3, "model": MODEL}
     )
     kinds = {"fold", "grazing", "period_doubling"} if rows else set()
     assert set(found["derivatives"]["kind"]) == set(found["groups"]["kind"]) == kinds
@@ -125,7 +126,7 @@ def test_weights_are_the_derivatives_of_aitkens_process():
 
 def test_curves_in_parameters_and_in_groups(tables):
     factors = dict.fromkeys(("damping", "stiffness", "frequency", "angle"), 1.3)
-    settings = {**SETTINGS, "model": MODEL, "curves": {**SETTINGS["curves"], "doublings": 1, "factors": factors}}
+    settings = {**SETTINGS, "model": MODEL, "effort": 0.3, "factors": factors}
     found = curves.make(tables[0].iloc[:3], tables[1], settings, threads=2)
     continued = pd.DataFrame(found["continued"])
     assert len(continued.groupby(["kind", "begin", "parameter"])) == 3 * 4

@@ -7,11 +7,14 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
+from project import merged, read_config
 
 from conveyor import Conveyor, Start, simulate
 from conveyor.solver.model import UNITS
 from pipeline import fields, grid, tables
 from sweeps import shards
+from workflow.config.entries import resolve
+from workflow.config.sharing import THREADS, seconds_of
 
 # The sweep of the README.
 MINE = {
@@ -60,7 +63,7 @@ MAP = {
 POINTS = 50
 
 
-SHORTEST = 1e-6  # s, duration of a job in which no row fits, so that only `most_jobs` limits the number of jobs
+SHORTEST = 1e-6  # s, duration of a job in which no row fits, so that only MOST_JOBS limits the number of jobs
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +73,8 @@ def swept(built):
     sweeps = {"mine": MINE, "mixed": MIXED}
     whole = {"prefix": "whole", "sweeps": sweeps}
     built.under(whole).make_in_process("--cores", "2", *(f"results/whole/sweeps/{name}.parquet" for name in sweeps))
-    cut = {"prefix": "cut", "sharing": {"job_seconds": SHORTEST, "most_jobs": 3}, "sweeps": sweeps}
+    third = seconds_of(resolve(merged(read_config(), {"sweeps": sweeps}), "sweeps", "mixed"), 8)  # of 24 rows
+    cut = {"prefix": "cut", "sharing": {"job_seconds": third / THREADS}, "sweeps": sweeps}
     built.under(cut).make_in_process("results/cut/sweeps/mixed.parquet")
     return lambda prefix, name: built.folder / f"results/{prefix}/sweeps/{name}.parquet"
 

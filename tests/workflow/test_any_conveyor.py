@@ -35,12 +35,12 @@ COARSE = {
     "regressions": {"height": {"valley": {"num": 9}}},
     "signals": {"states": {"times": {"num": 401}}, "long_chaos": {"axes": {"z0": [0.0]}}},
     "dimensions": {"portrait": PORTRAIT, "portrait_correlation": PORTRAIT | {"samples": 1000}},
-    "orbits": {"max_period": 1, "most": 400},
+    "orbits": {"max_period": 1},
     "attractors": FEW | {"transient": 50, "strobes": 8},
-    "sensitivity": {"most": 1, "doublings": 1, "heights": 1, "curves": {"doublings": 1, "points": 10}},
+    "sensitivity": {"effort": 0.2, "factors": {"damping": 1.2, "stiffness": 1.2, "frequency": 1.1}},
     "operating": FEW | {"resolution": 10.0, "starts": 16},
     "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},
-    "drift": {"amplitudes": 1, "runs": 4, "cycles": 256},
+    "drift": {"effort": 0.06},
     "track": {"inclination": {"num": 2}, "phase_shift": {"num": 3}, "starts": 4},
 }
 
@@ -117,4 +117,3 @@ def test_captions_say_what_a_conveyor_does_not_have(builds):
     assert "Parts climb on none of these tracks." in sliding["track"]
     assert "slides away faster and faster" in sliding["fig03"]
     assert "0.833 s" in runs["climbing"][1]["fig03"]
-    assert "The search ended after 400 orbits" in runs["undamped"][1]["bifurcation"]

@@ -284,6 +284,25 @@ WRONG = [
         },
         "model.static_friction = 0.03 leaves no friction to search, because calibration.ranges.friction begins at 0.04",
     ),
+    (
+        {"sharing": {"most_jobs": 9}},
+        "sharing.most_jobs is no setting any more; remove it (its value is a constant in workflow/config/sharing.py)",
+    ),
+    (
+        {"orbits": {"most": 9}},
+        "orbits.most is no setting any more; remove it (its value is a constant in scripts/orbits/",
+    ),
+    ({"drift": {"runs": 9}}, "drift.runs is no setting any more; give drift.effort, a factor of all its numbers"),
+    ({"settling_times": {"starts": 9}}, "settling_times.starts is no setting any more; give settling_times.effort"),
+    (
+        {"sensitivity": {"curves": {"points": 20}}},
+        "sensitivity.curves is no setting any more; give sensitivity.factors",
+    ),
+    ({"clean_drive": {"statement": {"share": 0.1}}}, "clean_drive.statement is no setting any more; remove it"),
+    (
+        {"clean_drive": {"shares": [0.02, 0.1]}},
+        "clean_drive.shares = [0.02, 0.1] lacks 0.05, the share of the statement on chaos; add it",
+    ),
     ({"parts": {"calibrated": True}}, "parts.calibrated needs measurements; name the config with"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),

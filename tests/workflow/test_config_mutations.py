@@ -141,7 +141,7 @@ def test_another_order_or_spelling_is_valid_and_equivalent():
     [
         {"figures": {"fig03": {"section": r"$\dot{x}_p$ über $\hat{a}$ {braces} {}"}}},
         {"claims": {"C01": {"statement": "Ä ö ü ß {x}", "where": "{}"}}},
-        {"sharing": {"most_jobs": 5.0e2}, "solver": {"settling": 2.0e4}},
+        {"certificates": {"doublings": 4.0}, "solver": {"settling": 2.0e4}},
         {"sweeps": {"amplitudes": {"axes": {"acceleration": {"start": 20, "num": 20.0}}}}},
         {"prefix": "a-b_C1"},
         {"sweeps": {"one": {"axes": {"z0": ["conveyor"]}}}},

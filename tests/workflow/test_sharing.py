@@ -5,7 +5,7 @@ from project import merged, read_config
 
 from pipeline import grid
 from pipeline.labelling import batches_by_conveyor
-from workflow.config import problems
+from workflow.config import problems, sharing
 from workflow.config.entries import resolve
 from workflow.config.sharing import THREADS, conveyors_of, plan, throwing_share
 
@@ -21,8 +21,8 @@ def sweep(**axes) -> dict:
     return {"axes": axes, "duration": 0.02, "needs": "vertical"}
 
 
-def planned(entry: dict, **sharing):
-    config = merged(CONFIG, {"sharing": sharing, "sweeps": {"mine": entry}})
+def planned(entry: dict):
+    config = merged(CONFIG, {"sweeps": {"mine": entry}})
     return plan(config["sharing"], resolve(config, "sweeps", "mine"))
 
 
@@ -79,8 +79,9 @@ def test_no_job_of_a_usual_sweep_takes_a_gigabyte(points):
     assert max(shared.memory, shared.gathering) < 1000.0
 
 
-def test_a_sweep_has_at_most_the_allowed_number_of_jobs():
-    shared = planned(sweep(psi0=span(6.0, 10_000), z0=span(1e-4, 10_000)), most_jobs=7)
+def test_a_sweep_has_at_most_the_allowed_number_of_jobs(monkeypatch):
+    monkeypatch.setattr(sharing, "MOST_JOBS", 7)
+    shared = planned(sweep(psi0=span(6.0, 10_000), z0=span(1e-4, 10_000)))
     assert shared.shards == 7
 
 
@@ -92,11 +93,3 @@ def test_an_expensive_sweep_is_refused_with_its_cost_and_the_key():
     assert line.endswith(f"or raise sharing.core_hours = {SHARING['core_hours']:g}")
     enough = {"sharing": {"core_hours": 1.01 * shared.core_hours}, "sweeps": {"mine": huge}}
     assert problems(merged(CONFIG, enough)) == []
-
-
-def test_a_number_of_shards_can_be_given():
-    entry = resolve(merged(CONFIG, {"sweeps": {"mine": sweep(z0=span(5e-4, 10))}}), "sweeps", "mine")
-    one, three = plan(SHARING, entry, 1), plan(SHARING, entry, 3)
-    assert (one.rows, one.shards, three.rows, three.shards) == (10, 1, 4, 3)
-    assert one.seconds > three.seconds
-    assert one.memory > three.memory

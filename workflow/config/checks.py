@@ -9,6 +9,7 @@ from functools import cache
 
 from scripts.calibration.measurements import MeasurementError, parse, read_text
 from scripts.conveyor import RANGES
+from scripts.excitation.limits import STATEMENT
 
 from .entries import (
     ENTRIES,
@@ -293,8 +294,8 @@ def calibration(config: dict, defaults: dict) -> Iterator[str]:
 def excitation(config: dict, defaults: dict) -> Iterator[str]:
     """Faults in the file of an accelerometer and in its signal."""
     own, clean = config["excitation"], config["clean_drive"]
-    if (share := clean["statement"]["share"]) not in clean["shares"]:
-        yield f"clean_drive.statement.share = {share!r} is not among clean_drive.shares = {clean['shares']!r}; add it"
+    if (share := STATEMENT["share"]) not in clean["shares"]:
+        yield f"clean_drive.shares = {clean['shares']!r} lacks {share!r}, the share of the statement on chaos; add it"
     if (path := own.get("measured")) is None:
         return
     # Only configs with such a file need NumPy and SciPy.

@@ -27,12 +27,12 @@ NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 # which they are constants.
 CONSTANTS = {
     "accuracy/benchmark": {"benchmark": "cases"},
-    "accuracy/map_check": {"map_check": "boundary seed tolerance close repeats significant accepted"},
-    "accuracy/precision": {"precision": "sample_interval tolerances steps peers seconds"},
+    "accuracy/map_check": {"map_check": "boundary seed cycles tolerance close repeats significant accepted"},
+    "accuracy/precision": {"precision": "sample_interval tolerances steps peers seconds max_evaluations"},
     "accuracy/reference_check": {"precision": "reference"},
     "accuracy/scene_budget": {"scene_budget": "tolerances pixels line"},
     "accuracy/scenes": {"precision": "scenes", "": "published_scenes"},
-    "accuracy/settling_times": {"settling_times": "acceleration z0"},
+    "accuracy/settling_times": {"settling_times": "acceleration z0 seed cycles"},
     "accuracy/speed": {"figures.NAME.settings": "paper_step equal_error"},
     "accuracy/stability": {"stability": "contact conveyor damping impact_velocity methods step stiffness"},
     "accuracy/stability_estimates": {"": "stability_estimates"},
@@ -52,6 +52,7 @@ CONSTANTS = {
     "calibration/study": {"": "calibration_study"},
     "dimensions/portraits": {"dimensions.NAME": "interval octaves theiler largest_error"},
     "docs/companion/build": {"companion": "opening separation"},
+    "excitation/limits": {"clean_drive": "matters statement"},
     "figures/plots/bifurcation": {"figures.NAME.settings": "lowest_exponent"},
     "figures/plots/fig05": {"figures.NAME.settings": "begin"},
     "figures/plots/fig06": {"figures.NAME.settings": "highest"},
@@ -65,6 +66,7 @@ CONSTANTS = {
     "operating/shares": {"operating": "followed cycles"},
     "operating/throws": {"throws": "followed"},
     "operating/track": {"track": "cycles"},
+    "orbits/branches": {"orbits": "most"},
     "orbits/certified": {
         "certificates": "longest_period bits order tolerance closeness half_width half_arc",
         "certificates.chaos": "size ratio longest bits order tolerance",
@@ -73,10 +75,9 @@ CONSTANTS = {
     "orbits/seeds": {"orbits": "cycles"},
     "orbits/settings": {"": "lyapunov", "certificates": "also"},
     "orbits/witnesses": {"": "witnesses"},
-    "sensitivity/curves": {"sensitivity.curves": "amplitude step"},
     "sensitivity/derivatives": {"sensitivity": "rest"},
-    "sensitivity/selection": {"sensitivity": "longest_period"},
-    "workflow/config/sharing": {"sharing": "seconds megabytes"},
+    "sensitivity/selection": {"sensitivity": "longest_period most"},
+    "workflow/config/sharing": {"sharing": "seconds megabytes most_jobs"},
 }
 # Sections and settings of earlier versions that nothing uses any more.
 GONE = (
@@ -91,6 +92,10 @@ GONE = (
 )
 # Settings with a new name.
 RENAMED = {
+    "settling_times.starts": "settling_times.effort, a factor of the number of initial conditions",
+    **{f"drift.{key}": "drift.effort, a factor of all its numbers" for key in ("amplitudes", "runs", "cycles")},
+    **{f"sensitivity.{key}": "sensitivity.effort, a factor of both numbers" for key in ("doublings", "heights")},
+    "sensitivity.curves": "sensitivity.factors, the ranges of the parameters, and sensitivity.effort",
     "scene_budget.points": "scene_budget.effort, a factor of all numbers of points",
     "dimensions.NAME.begin": "solver.settling, in excitation cycles",
 }

@@ -35,7 +35,6 @@ class Solver(TypedDict):
 
 class Sharing(TypedDict):
     job_seconds: number("duration of a job on two cores", "s", gt=0, le=1e6)
-    most_jobs: whole("largest number of jobs per sweep", 1, 10**5)
     core_hours: number("largest estimated cost of a sweep", "h", gt=0, le=1e9)
 
 

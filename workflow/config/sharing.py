@@ -14,6 +14,7 @@ from scripts.pipeline.sizes import BLOCK, CHAOS_SHARED, CYCLES_SHARED, ORBITS_SH
 from .entries import count_points, count_values, ends, values_of
 
 THREADS = 2  # of a job
+MOST_JOBS = 500  # of a sweep; jobs of a larger sweep take longer, because Snakemake is slow with thousands of jobs
 # Processor times of one core (s), measured at nine amplitudes from 30 to 90 m/s² and tolerances from 1e-6 to 3e-10:
 # of one excitation cycle by the method event, and of one step of a fixed-step method.
 CYCLE, FIXED_STEP = 4.5e-6, 3.5e-9
@@ -86,19 +87,13 @@ def seconds_of(entry: dict, rows: int) -> float:
     return rows * (run + start) + conveyors * conveyor
 
 
-def plan(sharing: dict, entry: dict, shards: int | None = None) -> Plan:
-    """The division of a sweep into `shards` jobs, or, if `shards` is None, into jobs of the requested duration.
-
-    Jobs last longer if there would be too many of them.
-    """
+def plan(sharing: dict, entry: dict) -> Plan:
+    """The division of a sweep into jobs of the requested duration, or of a longer one if there would be too many."""
     points = count_points(entry["axes"])
-    if shards:
-        rows = math.ceil(points / shards)
-    else:
-        # The largest number of rows that take at most this time.
-        limit = THREADS * sharing["job_seconds"]
-        rows = bisect_right(range(1, points + 1), limit, key=lambda rows: seconds_of(entry, rows))
-        rows = max(1, rows, math.ceil(points / sharing["most_jobs"]))
+    # The largest number of rows that take at most this time.
+    limit = THREADS * sharing["job_seconds"]
+    rows = bisect_right(range(1, points + 1), limit, key=lambda rows: seconds_of(entry, rows))
+    rows = max(1, rows, math.ceil(points / MOST_JOBS))
     computed, written = ROW * min(rows, BLOCK), WRITTEN_ROW * min(rows, ROW_GROUP + BLOCK)
     return Plan(
         points,

@@ -3,6 +3,7 @@
 import pandas as pd
 
 from claims.about_states import find_runs, format_runs
+from orbits.branches import MOST_ORBITS
 
 SIGNIFICANT = 3.0  # standard errors from zero of an exponent whose sign is certain
 
@@ -38,5 +39,6 @@ def numbers(
     return accumulation(spectrum=spectrum, cascade=cascade) | {
         "orbits": len(branches) > 0,
         "bends": bifurcations.kind.isin(("fold", "period_doubling")).any(),
-        "ended": (branches.cycle == 1).sum() >= branches.attrs["most"],
+        "most": MOST_ORBITS,
+        "ended": (branches.cycle == 1).sum() >= MOST_ORBITS,
     }

@@ -4,15 +4,16 @@ import numpy as np
 import pandas as pd
 
 from excitation import clean_drive
+from excitation.limits import MATTERS, STATEMENT
 from operating.transit import ENDS
 
 
 def numbers(*, drives: pd.DataFrame) -> dict:
-    limits = drives.attrs["statement"]
-    harmless = clean_drive.harmless_shares(drives, drives.attrs["matters"])
+    harmless = clean_drive.harmless_shares(drives)
     return {
         "statement": clean_drive.statement_of(drives),
-        "limits": limits,
+        "limits": STATEMENT,
+        "matters": MATTERS,
         "ends": ENDS,
         "harmless": harmless.replace({np.nan: None}).to_dict("records"),
     }

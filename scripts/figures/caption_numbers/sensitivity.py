@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from pipeline.templates import format_number
-from sensitivity.selection import LONGEST_PERIOD
+from sensitivity.selection import LONGEST_PERIOD, MOST
 
 SMALL_ELASTICITY = 1e-3  # below it, a relative error means nothing
 
@@ -19,7 +19,8 @@ def numbers(
     cusps = meetings[(meetings.begin == first) & (meetings.meeting == "cusp") & (meetings.parameter == "damping")]
     short = bifurcations[bifurcations.period <= LONGEST_PERIOD]
     return {
-        "many": (short.kind.value_counts() > derivatives.attrs["most"]).any(),
+        "most": MOST,
+        "many": (short.kind.value_counts() > MOST).any(),
         "heights": list(map(format_number, right[right.kind == "critical_height"].acceleration.unique())),
         "tried": (derivatives.kind == "critical_height").any(),
         "right": np.isfinite(error.max()),
