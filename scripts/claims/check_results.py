@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 
-def make(results: str, figures: dict, tests: str) -> str:
+def make(results: str, figures: dict, tests: str, *, threads: int = 1) -> str:
     """The number of passed tests, in pytest's words, of the folder `tests` on the folder `results`.
 
     Raises
@@ -17,7 +17,7 @@ def make(results: str, figures: dict, tests: str) -> str:
     """
     environment = os.environ | {"CONVEYOR_RESULTS": results, "CONVEYOR_FIGURES": json.dumps(figures)}
     # The interpreter of this process: PATH may have another one, or none.
-    command = [sys.executable, "-m", "pytest", tests, "--dist=worksteal"]
+    command = [sys.executable, "-m", "pytest", tests, f"--numprocesses={threads}", "--dist=worksteal"]
     run = subprocess.run(
         command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
     )

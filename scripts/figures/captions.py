@@ -33,7 +33,11 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
     conveyor = "the paper's conveyor" if paper else "this conveyor"
     models = [table.attrs["model"] for table in tables.values() if "friction" in table.attrs.get("model", {})]
     about = {"paper": paper, "conveyor": conveyor, "slides": any(map(is_steep, models))}
-    text = render(template, values | numbers | about)
+    try:
+        text = render(template, values | numbers | about)
+    except Exception as error:
+        error.add_note(f"in scripts/figures/plots/{name}.rst")
+        raise
     # Tables of the motion normal to the track have models without friction.
     for harmonics in sorted({name_harmonics(table.attrs.get("model", {})) for table in tables.values()} - {""}):
         text = f"{text.rstrip()} The plate's motion has {harmonics}.\n"

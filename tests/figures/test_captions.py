@@ -37,8 +37,9 @@ def test_a_typed_number_is_found(text):
 
 
 def test_a_missing_number_is_an_error():
-    with pytest.raises(UndefinedError, match="speed"):
+    with pytest.raises(UndefinedError, match="speed") as error:
         captions.caption("at {{ speed }} m/s", "fig01", {}, {})
+    assert error.value.__notes__ == ["in scripts/figures/plots/fig01.rst"]
     assert captions.caption("no number\n", "fig01", {}, {}) == "no number\n"
 
 

@@ -90,6 +90,9 @@ rule check_results:
         log_file("checks/results"),
     benchmark:
         benchmark_file("checks/results")
+    threads: THREADS
+    resources:
+        mem_mb=1500,
     params:
         **stage("claims.check_results"),
         results=lambda wildcards, output: os.path.dirname(output.checked),
