@@ -312,10 +312,13 @@ SECOND = [{"order": 2, "along": 0.1, "along_phase": 0.0, "normal": 0.1, "normal_
             {"model": {"frequency": 100.0}},
             (
                 "itself: heights × 0.25, velocities × 0.5, times × 0.5",
-                "led: amplitudes, time steps of fixed-step methods.",
+                "led: amplitudes, time steps of fixed-step methods, lengths of track and parts, longest",
             ),
         ),
-        ({"model": {"gravity": 19.62}}, ("itself: amplitudes × 2, heights × 2, velocities × 2, ", "led: times.")),
+        (
+            {"model": {"gravity": 19.62}},
+            ("itself: amplitudes × 2, heights × 2, velocities × 2, ", "led: times, lengths"),
+        ),
         ({"model": {"mass": 2.8e-3}}, ("itself: time steps", "methods × 1.429. Not scaled: amplitudes, heights, vel")),
         ({"model": {"friction": 0.2}}, ("paper's. Not scaled: amplitudes, heights, velocities, times, time steps",)),
         ({"model": {"harmonics": SECOND}}, ("fit_valley, sensitivity, harmonics", "interval of its fit; differences")),
@@ -331,12 +334,15 @@ def test_the_notice_says_what_was_scaled_and_dropped(tmp_path, overlay, expected
     assert [words for words in expected if words not in notice] == []
 
 
-def test_lengths_of_tracks_and_parts_are_not_scaled(tmp_path):
+def test_lengths_of_tracks_and_parts_and_the_length_of_jobs_are_not_scaled(tmp_path):
     front, own = tmp_path / "front.yaml", tmp_path / "own.yaml"
     front.write_text("transit: {length: 0.7}\nadvice: {part_length: 0.02}\n")
     own.write_text("prefix: own\nmodel: {frequency: 25.0}\n")
     config = load_config(DEFAULT_FILES, [front, own], {}).config
     assert (config["transit"]["length"], config["advice"]["part_length"]) == (0.7, 0.02)
+    paper = load_config(DEFAULT_FILES, [], {}).config
+    assert config["transit"]["longest"] == paper["transit"]["longest"]
+    assert config["sharing"] == paper["sharing"]
 
 
 def test_an_overlay_that_scales_must_fit_the_paper(tmp_path):

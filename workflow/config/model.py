@@ -34,7 +34,7 @@ class Solver(TypedDict):
 
 
 class Sharing(TypedDict):
-    job_seconds: number("duration of a job on two cores", "s", gt=0, le=1e6)
+    job_seconds: number("duration of a job on two cores", "s", scaled=False, gt=0, le=1e6)
     core_hours: number("largest estimated cost of a sweep", "h", gt=0, le=1e9)
 
 

@@ -68,7 +68,7 @@ def scale_ratios(paper: dict, own: dict) -> dict[str, float]:
 
 
 def scale(value: Any, schema: dict, ratios: dict[str, float], digits: int = DIGITS) -> Any:
-    """A value with all its numbers multiplied by the ratios of their units, which the schema has.
+    """A value with its numbers multiplied by the ratios of their units, unless the schema forbids it.
 
     Amplitudes, heights and velocities are rounded to `digits`.
     """
@@ -80,7 +80,7 @@ def scale(value: Any, schema: dict, ratios: dict[str, float], digits: int = DIGI
         merges = any(one == other for one, other in itertools.pairwise(scaled)) and digits < EXACT
         return scale(value, schema, ratios, EXACT) if merges else scaled
     unit = unit_of(schema)
-    if not isinstance(value, float) or ratios.get(unit, 1.0) == 1.0:
+    if not isinstance(value, float) or ratios.get(unit, 1.0) == 1.0 or not schema.get("scaled", True):
         return value
     return float(f"{value * ratios[unit]:.{digits if unit in ROUNDED else EXACT}g}")
 
@@ -153,9 +153,7 @@ def scale_config(paper: dict, overlay: dict) -> dict:
         config["solver"]["step"] = scaled_step(paper, own)
     for entry in config["estimates"].values():
         entry["epsilon"] = scale(entry["epsilon"], schema_at(["model", entry["perturb"]]), ratios)
-    # A track is as long as it is, and so is a part; how the user's parts differ is not known.
-    config["advice"] |= {name: paper["advice"][name] for name in ("part_length",) if name in paper["advice"]}
-    config["transit"] |= {name: paper["transit"][name] for name in ("length", "longest")}
+    # How the user's parts differ is not known.
     config["parts"] |= {name: 0.0 for name in paper["parts"] if name != "seed"}
     config["claims"], config["uncertainty"]["claims"] = {}, []
     drop_other_methods(config, overlay)
@@ -175,8 +173,8 @@ def describe_scaling(paper: dict, config: dict) -> str:
     factors["time steps of fixed-step methods"] = scaled_step(paper, config["model"]) / paper["solver"]["step"]
     changed = [f"{name} × {factor:.4g}" for name, factor in factors.items() if abs(factor - 1.0) > 1e-9]
     kept = [name for name, factor in factors.items() if abs(factor - 1.0) <= 1e-9]
+    kept += ["lengths of track and parts", "longest time of transit"]
     scaled = f"Scaled, except for values that your config gives itself: {', '.join(changed)}. " if changed else ""
-    unscaled = f"Not scaled: {', '.join(kept)}. " if kept else ""
     figures = [name for name in paper["figures"] if name not in config["figures"]]
     dropped = [
         *([] if config["claims"] else ["the paper's claims"]),
@@ -186,4 +184,5 @@ def describe_scaling(paper: dict, config: dict) -> str:
         *([] if "seeds" in config["orbits"] else ["the paper's first orbits and the interval of its fit"]),
         *([] if any(value for name, value in config["parts"].items() if name != "seed") else ["differences of parts"]),
     ]
-    return f"{config['prefix']} is another conveyor than the paper's. {scaled}{unscaled}Dropped: {'; '.join(dropped)}."
+    unscaled = f"Not scaled: {', '.join(kept)}. "
+    return f"{config['prefix']} is a conveyor other than the paper's. {scaled}{unscaled}Dropped: {'; '.join(dropped)}."
