@@ -24,7 +24,7 @@ from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
 from .harmonics import Fit, duration_of
-from .reading import Recording
+from .reading import AXES, Recording
 
 PARAMETERS = {"acceleration": "m/s²", "frequency": "Hz", "angle": "rad", "phase_shift": "rad"}
 SHARES = ("along", "along_phase", "normal", "normal_phase")
@@ -142,7 +142,7 @@ def harmonics(fit: Fit, noise: Noise) -> dict[str, np.ndarray]:
     tests = 2 * len(orders)
     columns: dict[str, np.ndarray] = {"order": orders}
     zero = np.angle(fit.amplitudes[1, 0])
-    for axis, name in enumerate(("along", "normal")):
+    for axis, name in enumerate(AXES):
         share = np.abs(fit.amplitudes[axis, 1:] / fit.amplitudes[axis, 0])
         own = variance(noise.amplitude[axis]) + noise.added[axis], variance(noise.phase[axis]) + noise.added[axis]
         # Power over the mean power of noise, two numbers over twice as many as an amplitude or a phase has.

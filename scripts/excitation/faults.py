@@ -21,7 +21,7 @@ from .harmonics import (
     steadiness,
     strongest,
 )
-from .reading import STANDARD_GRAVITY, UNITS, Recording, RecordingError, line_of_sample, parse, read_text
+from .reading import DIRECTIONS, STANDARD_GRAVITY, UNITS, Recording, RecordingError, line_of_sample, parse, read_text
 
 __all__ = ["RecordingError", "checked", "first_fit", "read_text"]
 
@@ -204,9 +204,9 @@ def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iter
     sizes = np.abs(fitted.amplitudes[:, 0])
     yield from ((None, fault) for fault in unit_faults(float(np.hypot(*sizes)), frequency, fitted.offsets, unit))
     noise = np.sqrt(4.0 * (fitted.residual**2).mean(axis=1) / len(time))
-    for axis, name in enumerate(("along", "normal")):
+    directions = list(DIRECTIONS.values())
+    for axis, direction in enumerate(directions):
         if sizes[axis] < max(NO_FUNDAMENTAL * np.hypot(*sizes), 4.0 * noise[axis]):
-            direction = f"{name} the track" if name == "along" else "normal to the track"
             yield (
                 None,
                 f"shows no vibration {direction} at {frequency:.4g} Hz ({sizes[axis]:.2g} m/s²), to which shares of "
@@ -216,10 +216,9 @@ def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iter
     shares = np.abs(fitted.amplitudes) / sizes[:, None]
     if shares.max() > MOST_SHARE:
         axis, place = np.unravel_index(np.argmax(shares), shares.shape)
-        direction = ("along", "normal to")[axis]
         yield (
             None,
-            f"vibrates {direction} the track {shares[axis, place]:.3g} times as much at {(place + 1) * frequency:.4g} "
+            f"vibrates {directions[axis]} {shares[axis, place]:.3g} times as much at {(place + 1) * frequency:.4g} "
             f"Hz as at {frequency:.4g} Hz, to which shares of harmonics refer; model.harmonics take shares up to "
             f"{MOST_SHARE:g}: check the columns and excitation.mount, and record one drive alone",
         )

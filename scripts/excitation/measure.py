@@ -8,25 +8,23 @@ from scipy.ndimage import median_filter
 from excitation.estimates import PARAMETERS, harmonics, noise_of, parameters
 from excitation.faults import first_fit
 from excitation.harmonics import Fit, duration_of, fit, orders_of, sampling_rate, spectrum, steadiness
-from excitation.reading import Recording, parse
+from excitation.reading import AXES, DIRECTIONS, Recording, parse
 from pipeline import fields
 
-AXES = ("along", "normal")
 DIGITS = 10  # of all numbers; further digits depend on the processor, and no sensor has them
 SAMPLES, POINTS, BINS = 2000, 257, 2000  # of the figure
 
 
 def by_axis(name: str, unit: str, description: str) -> tuple:
     """The columns of both axes."""
-    return (
-        fields.number(f"along{name}", unit, f"{description} along the track"),
-        fields.number(f"normal{name}", unit, f"{description} normal to the track"),
+    return tuple(
+        fields.number(f"{axis}{name}", unit, f"{description} {direction}") for axis, direction in DIRECTIONS.items()
     )
 
 
 def share_fields(axis: str) -> tuple:
     """The columns of the harmonics of one axis."""
-    of = f"harmonic {'along' if axis == 'along' else 'normal to'} the track"
+    of = f"harmonic {DIRECTIONS[axis]}"
     return (
         fields.number(axis, "1", f"amplitude of the {of}, over the fundamental of this axis"),
         fields.number(f"{axis}_stderr", "1", "its standard error"),

@@ -11,19 +11,6 @@ from excitation.limits import MATTERS
 from operating.parts import differences
 from pipeline.templates import render
 
-DIRECTIONS = {"along": "along", "normal": "normal to"}
-
-
-def largest_share(harmonics: pd.DataFrame) -> dict | None:
-    """The largest share above the noise, its order and its direction; None if all are below it."""
-    shares = [
-        {"share": row[axis], "order": row["order"], "direction": direction}
-        for row in harmonics.to_dict("records")
-        for axis, direction in DIRECTIONS.items()
-        if row[f"{axis}_above_noise"]
-    ]
-    return max(shares, key=lambda one: one["share"], default=None)
-
 
 def make(
     template: str,
@@ -45,7 +32,6 @@ def make(
             "drive": drive,
             "backwards": abs(drive["phase_shift"]["value"]) > 0.5 * math.pi,
             "harmonics": harmonics[harmonics.above_noise].to_dict("records"),
-            "largest": largest_share(harmonics),
             "orders": int(harmonics.order.max()) if len(harmonics) else 1,
             "quality": fit,
             "other": not math.isnan(fit["other_frequency"]),

@@ -16,7 +16,9 @@ import numpy as np
 
 STANDARD_GRAVITY = 9.80665  # m/s², the unit g
 UNITS = {"m/s²": 1.0, "g": STANDARD_GRAVITY}
-PLATE, SENSOR = ("along", "normal"), ("x", "z")  # the two pairs of columns
+# The axes of the plate, which are columns of a file, in words.
+DIRECTIONS = {"along": "along the track", "normal": "normal to the track"}
+AXES, SENSOR = tuple(DIRECTIONS), ("x", "z")  # the two pairs of columns
 NUMBER = re.compile(r"[-+]?(\d+[.,]?\d*|[.,]\d+)([eE][-+]?\d+)?")
 MOST_SAMPLES = 2_000_000  # 80 s at 25 kHz; the fit of more takes minutes and gigabytes, and gains nothing
 MOST_BYTES = 50 * MOST_SAMPLES
@@ -90,15 +92,15 @@ def header_faults(names: list[str]) -> list[str]:
         return ["is empty; the first line names the columns, such as time,along,normal"]
     if any(NUMBER.fullmatch(name) for name in names):
         return ["begins with numbers; the first line must name the columns, such as time,along,normal"]
-    known = ("time", *PLATE, *SENSOR)
+    known = ("time", *AXES, *SENSOR)
     if twice := sorted({name for name in names if name in known and names.count(name) > 1}):
         return [f"has the column {twice[0]} twice; keep one"]
-    complete = [pair for pair in (PLATE, SENSOR) if set(pair) <= set(names)]
+    complete = [pair for pair in (AXES, SENSOR) if set(pair) <= set(names)]
     if len(complete) == 2:
         return ["has both along, normal and x, z; keep one pair"]
     if complete and "time" in names:
         return []
-    missing = ("time", *(complete or [SENSOR if {*SENSOR} & {*names} else PLATE])[0])
+    missing = ("time", *(complete or [SENSOR if {*SENSOR} & {*names} else AXES])[0])
     faults = []
     for name in (name for name in missing if name not in names):
         like = [other for other in names if other not in known]
@@ -195,9 +197,9 @@ def parse(text: str, path: str | Path, settings: Mapping[str, Any]) -> Recording
     first, names, separator = header_of(text)
     if faults := header_faults(names):
         raise RecordingError([f"{path}:{first}: {fault}" for fault in faults])
-    pair = PLATE if set(PLATE) <= set(names) else SENSOR
+    pair = AXES if set(AXES) <= set(names) else SENSOR
     mount = settings["mount"]
-    if pair == PLATE and mount != 0.0:
+    if pair == AXES and mount != 0.0:
         remedy = "name the columns x and z, or leave mount out"
         raise RecordingError([f"{path}:{first}: excitation.mount = {mount} turns the columns x, z only; {remedy}"])
     time, *readings = read_columns(text, path, first, names, separator, ("time", *pair))
