@@ -56,7 +56,7 @@ def log_factors(simulated: np.ndarray, data: Data, settings: dict, inflations: t
     simulated : velocities under each condition, shape (n, k, parts)
     """
     spread = widths(simulated)[:, data.of]
-    arguments = (data.velocity, simulated[:, data.of], data.sd, data.plate, settings, spread)
+    arguments = (data.velocity, simulated[:, data.of], data.sd, data.plate, settings["noise"], spread)
     return np.array([log_densities(*arguments, inflation) for inflation in inflations])
 
 

@@ -78,7 +78,7 @@ def compare(
     measured = np.vstack([data.velocity, drawn])
     spread = widths(scored)
     densities = [
-        log_densities(column[:, None], scored[[of]], sd, plate, settings, spread[[of]])[:, 0]
+        log_densities(column[:, None], scored[[of]], sd, plate, settings["noise"], spread[[of]])[:, 0]
         for column, of, sd, plate in zip(measured.T, data.of, data.sd[:, None], data.plate[:, None], strict=True)
     ]
     shares = tail_shares(np.column_stack(densities))

@@ -175,7 +175,7 @@ def log_densities(
     velocities: np.ndarray,
     sd: np.ndarray,
     plate: np.ndarray,
-    settings: dict,
+    noise: float,
     spread: np.ndarray | None = None,
     inflation: float = 1.0,
 ) -> np.ndarray:
@@ -183,13 +183,13 @@ def log_densities(
 
     Parameters
     ----------
-    measured, sd, plate : m/s, shape (r,) or (n, r); see `deviations`
+    measured, sd, plate : m/s, of shapes that NumPy broadcasts to (n, r); these and `noise`: see `deviations`
     velocities : of the parts under the conditions of each measurement, m/s, shape (n, r, parts)
     spread : their `widths`
     inflation : factor of the standard deviation of the measurements
     """
     spread = widths(velocities) if spread is None else spread
-    scale = np.hypot(inflation * deviations(velocities, sd[..., None], plate[..., None], settings["noise"]), spread)
+    scale = np.hypot(inflation * deviations(velocities, sd[..., None], plate[..., None], noise), spread)
     z = (measured[..., None] - velocities) / scale
     density = exp(-0.5 * z**2) / (math.sqrt(2.0 * math.pi) * scale)
     mean = np.nan_to_num(density).sum(axis=-1) / velocities.shape[-1]

@@ -47,7 +47,7 @@ BEYOND = 0.2  # relative distance beyond the measured amplitudes within which th
 
 
 def expected_narrowing(
-    simulated: np.ndarray, values: np.ndarray, plate: float, settings: dict, random: np.random.Generator
+    simulated: np.ndarray, values: np.ndarray, plate: float, noise: float, random: np.random.Generator
 ) -> np.ndarray:
     """Expected narrowing of the interval of each parameter by one velocity, shape (d,).
 
@@ -56,21 +56,18 @@ def expected_narrowing(
     simulated : velocities of the parts of each sample, m/s, shape (n, parts)
     values : searched parameters, or their logarithms, shape (n, d)
     plate : largest velocity of the plate along the track, m/s
+    noise : relative standard deviation of the velocity
     """
     simulated = np.where(np.isnan(simulated), 0.0, simulated)
     n, parts = simulated.shape
     place = random.permutation(n * parts)[:POSSIBLE]
     sample, part = np.divmod(place, parts)
-    true, none = simulated[sample, part], np.array(math.nan)
-    result = true + random.standard_normal(len(true)) * deviations(true, none, np.array(plate), settings["noise"])
-    measured = np.repeat(result[:, None], n, axis=1)  # rows of possible results, columns of samples
-    unknown, plates = np.full(n, math.nan), np.full(n, plate)
-    logs = log_densities(measured, simulated, unknown, plates, settings)
+    true, accuracy = simulated[sample, part], (np.array([math.nan]), np.array([plate]), noise)
+    result = true + random.standard_normal(len(true)) * deviations(true, *accuracy)
+    logs = log_densities(result[:, None], simulated, *accuracy)  # rows of possible results, columns of samples
     # The part that gave a result must not count as evidence for its own sample.
     others = np.array([np.delete(simulated[s], p) for s, p in zip(sample, part, strict=True)])
-    rows = np.arange(len(result))
-    one = np.full(len(result), math.nan), np.full(len(result), plate)
-    logs[rows, sample] = log_densities(result, others, *one, settings)
+    logs[np.arange(len(result)), sample] = log_densities(result, others, *accuracy)
     weights = exp(logs - logs.max(axis=1, keepdims=True))
     weights /= weights.sum(axis=1, keepdims=True)
     mean = product(weights, values)
@@ -117,7 +114,7 @@ def predict(
     columns = columns + 1e-12 * random.standard_normal(columns.shape)  # equal samples have no standard deviation
     gains = np.array(
         [
-            expected_narrowing(simulated[:, place], columns, conditions.plate[place], settings, random)
+            expected_narrowing(simulated[:, place], columns, conditions.plate[place], settings["noise"], random)
             for place in range(len(amplitudes))
         ]
     )

@@ -95,7 +95,7 @@ def gain_of_distant(samples: pd.DataFrame, best: dict, true: dict, data: Data, s
     chosen = distant.iloc[np.linspace(0, len(distant) - 1, COMPARED).round().astype(int)]
     values = {name: np.append(true[name], chosen[name]) for name in PARAMETERS}
     simulated = velocities(values, data.conditions, settings, parts=MANY, seed=settings["seed"], threads=threads)
-    arguments = (data.velocity, simulated[:, data.of], data.sd, data.plate, settings)
+    arguments = (data.velocity, simulated[:, data.of], data.sd, data.plate, settings["noise"])
     of_true, *others = log_densities(*arguments, spread=np.zeros(())).sum(axis=1)
     return float(max(others) - of_true)
 

@@ -13,7 +13,7 @@ import pandas as pd
 
 from conveyor import RANGES, throw_number
 from operating.parts import VARIED, population, with_calibration
-from operating.transit import MEASURES, PROBABILITIES, follow, measure, relative_spread, summarize_populations
+from operating.transit import MEASURES, PROBABILITIES, follow, measure, spread_of, summarize_populations
 from pipeline import fields
 
 FAST, EVEN = "fast", "even"
@@ -96,7 +96,7 @@ def relative_change(after: np.ndarray, before: np.ndarray) -> np.ndarray:
 def effects(before: np.ndarray, after: np.ndarray) -> np.ndarray:
     """Relative changes of the 5 % quantile and of the relative spread of velocities, shape (..., parts), stacked."""
     old, new = (np.quantile(velocity, PROBABILITIES, axis=-1) for velocity in (before, after))
-    return np.stack([relative_change(new[0], old[0]), relative_change(relative_spread(new), relative_spread(old))])
+    return np.stack([relative_change(new[0], old[0]), relative_change(spread_of(new), spread_of(old))])
 
 
 def compare(before: np.ndarray, after: np.ndarray, seed: int) -> dict[str, float]:

@@ -12,8 +12,7 @@ import pandas as pd
 from conveyor import RANDOM_WALK_STATUS, random_walk, relative_spread, sample_runs
 from operating.parts import IDENTICAL, population, starts_of_box
 from operating.regimes import CHAOS, SEVERAL
-from operating.transit import PROBABILITIES, follow, quantiles, spread_stderr
-from operating.transit import relative_spread as spread_of
+from operating.transit import PROBABILITIES, follow, quantiles, spread_of, spread_stderr
 from pipeline import fields, grid
 
 # By an effort of 1, with which the standard error of a diffusion coefficient is about 5 %.

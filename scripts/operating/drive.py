@@ -13,13 +13,12 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pandas as pd
 
-from conveyor import progress_bar
+from conveyor import UNITS, progress_bar
 from conveyor.elementary import cos, exp, log, sin
 from conveyor.linear_algebra import length
 from operating.parts import population
 from operating.transit import follow, summarize_populations
 from pipeline import fields, pareto
-from pipeline.fields import AXES
 
 DRAWN = (
     8  # random designs of the first generation, in units of the population, because few of them meet all constraints
@@ -48,7 +47,7 @@ WORST = {
 CHECKED = ("velocity", "velocity_50", "velocity_95", "impact_speed", "back", "late")
 TABLES = {
     "drive_front": (
-        *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "parameter of the design") for name in SEARCHED),
+        *(fields.number(name, UNITS[name], "parameter of the design") for name in SEARCHED),
         fields.number(
             "harmonic_share", "1", "acceleration of a second harmonic over the fundamental; 0 if not searched"
         ),

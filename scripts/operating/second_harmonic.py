@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import OptimizeResult, differential_evolution
 
-from conveyor import progress_bar
+from conveyor import UNITS, progress_bar
 from operating.drive import (
     CHECK_ERRORS,
     SEARCHED,
@@ -25,7 +25,6 @@ from operating.drive import (
     last_growth,
 )
 from pipeline import fields
-from pipeline.fields import AXES
 
 KINDS = PURE, WITH_HARMONIC = ("pure", "with a second harmonic")
 PEAKS = (0.5, 1.0)  # of the largest acceleration of the drive's bounds
@@ -42,7 +41,7 @@ TABLES = {
         fields.number("peak_acceleration", "m/s²", "largest acceleration of the plate in the direction of vibration"),
         fields.text("kind", " or ".join(KINDS)),
         fields.count("seed", "seed of the search"),
-        *(fields.number(name, AXES[name].metadata[b"unit"].decode(), "of the fastest drive") for name in SEARCHED),
+        *(fields.number(name, UNITS[name], "of the fastest drive") for name in SEARCHED),
         fields.number("harmonic_share", "1", "acceleration of the second harmonic over the fundamental; 0 if pure"),
         fields.number("harmonic_phase", "rad", "phase of the second harmonic; 0 if pure"),
         fields.number("velocity_05", "m/s", "smallest 5 % quantile of the transit velocity within the margin"),

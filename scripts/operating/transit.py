@@ -77,7 +77,7 @@ def quantiles(velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return values, mjci(velocity - values[2], PROBABILITIES)
 
 
-def relative_spread(values: np.ndarray) -> np.ndarray:
+def spread_of(values: np.ndarray) -> np.ndarray:
     """95 % quantile minus 5 % quantile, over the size of the median; NaN for a median of 0.
 
     values : quantiles at PROBABILITIES, shape (5, ...)
@@ -110,7 +110,7 @@ def summarize(run: Columns) -> dict[str, float]:
         **dict(zip(QUANTILES, values, strict=True)),
         **{f"{name}_stderr": error for name, error in zip(QUANTILES, errors, strict=True)},
         "mean_velocity": velocity.mean(),
-        "spread": relative_spread(values),
+        "spread": spread_of(values),
         "late": np.isnan(arrival).mean(),
         "back": (velocity < 0.0).mean(),
         **{name: upper(run[name][right]) for name in ("impact_speed", "peak_force")},

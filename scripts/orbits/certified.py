@@ -387,22 +387,19 @@ def run_tasks(settings: dict, tasks: list[Task], processes: int) -> list[tuple[d
 
 def list_tasks(settings: dict, branches: pd.DataFrame, bifurcations: pd.DataFrame, cascade: pd.DataFrame) -> list[Task]:
     """All proofs."""
-    orbits = orbits_to_prove(settings, branches, cascade)
     first = cascade.iloc[0]
     doublings = bifurcations[(bifurcations.kind == "period_doubling") & (bifurcations.period == first.period)]
     jumping = doublings.loc[(doublings.acceleration - first.acceleration).abs().idxmin()].branch
     folds = bifurcations[(bifurcations.kind == "fold") & (bifurcations.branch == jumping)]
     parameters = grid.row_of(settings["model"])
     singles = stored_lines(branches, 1)
-    tasks = [Task("certificates", (orbit,)) for orbit in orbits]
+    tasks = [Task("certificates", (orbit,)) for orbit in orbits_to_prove(settings, branches, cascade)]
     for kind, rows in (("fold", folds), ("period_doubling", cascade.head(settings["doublings"]))):
         for number, row in enumerate(rows.to_dict("records"), start=1):
             tasks.append(Task("certified_bifurcations", (kind, number, row)))
     for acceleration in settings["chaos"]["acceleration"]:
-        orbits = [
-            orbit for number, line in singles.items() for orbit in orbits_at(parameters, number, line, acceleration)
-        ]
-        saddles = [orbit for orbit in orbits if abs(orbit.orbit.multipliers[0]) > 1.0]
+        orbits = [orbits_at(parameters, number, line, acceleration) for number, line in singles.items()]
+        saddles = [one for one in itertools.chain(*orbits) if abs(one.orbit.multipliers[0]) > 1.0]
         tasks.append(Task("certified_chaos", (acceleration, saddles)))
     return tasks
 

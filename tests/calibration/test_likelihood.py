@@ -11,7 +11,7 @@ from calibration.predicted import OUTLIERS, conditions_of, log_densities, veloci
 from calibration.search_space import bounds_of, values_at
 from conveyor import Conveyor, Start, simulate
 
-SETTINGS = {"noise": 0.02}
+NOISE = 0.02
 BOX = {"height": [0.0, 5e-4], "vz0": [-0.2, 0.2], "psi0": [0.0, 2.0 * math.pi], "static_friction": 0.0}
 MODEL = {"frequency": 50.0, "angle": 0.2094, "mass": 0.7e-3, "gravity": 9.81, "inclination": 0.0, "phase_shift": 0.0}
 CONTACT = {"friction": 0.15, "damping": 0.3, "stiffness": 5e5}
@@ -19,7 +19,7 @@ PLATE = np.array([0.13])
 
 
 def density(measured, parts, sd=math.nan):
-    return np.exp(log_densities(np.array([measured]), np.array([parts]), np.array([sd]), PLATE, SETTINGS))[0]
+    return np.exp(log_densities(np.array([measured]), np.array([parts]), np.array([sd]), PLATE, NOISE))[0]
 
 
 def test_parts_with_one_velocity_give_a_normal_density():
