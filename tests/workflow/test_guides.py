@@ -127,10 +127,13 @@ def test_the_other_snakefile_plans_the_same(built):
 def test_a_stage_runs_without_snakemake(built, monkeypatch):
     """The lines of the guide compute what the rule has written."""
     built.make_in_process("results/lyapunov/spectrum.parquet")
-    (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "workflow/templates/site/running.md").read_text(), re.DOTALL)
+    guide = (ROOT / "workflow/templates/site/running.md").read_text()
+    run, from_config = re.findall(r"```python\n(.*?)```", guide, re.DOTALL)
     monkeypatch.chdir(built.folder)
     names = {}
-    exec(code, names)
+    exec(run, names)
     written = pd.read_parquet("results/lyapunov/spectrum.parquet")
     assert list(names["columns"]) == list(written)
     assert np.array_equal(names["columns"]["lambda_1"], written.lambda_1, equal_nan=True)
+    exec(from_config, names)
+    assert list(names["settings"]) == list(written.attrs)
