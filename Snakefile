@@ -66,8 +66,8 @@ rule all:
     default_target: True
     input:
         figure_files(),
-        excitation_files(),
-        calibration_files(),
+        EXCITATION_FILES,
+        CALIBRATION_FILES,
         caption_files(),
         CLAIM_FILES,
         BUILD_RECORDS,

@@ -25,10 +25,8 @@ CONVEYOR = (
 )
 # Settings of figures that mark a number of the paper.
 MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_states")
-DIGITS, EXACT = (
-    4,
-    17,
-)  # of scaled amplitudes, heights and velocities, which stand on axes and in titles; of other numbers
+# Of scaled amplitudes, heights and velocities, which stand on axes and in titles; of other numbers.
+DIGITS, EXACT = 4, 17
 ROUNDED = ("m/s²", "m", "m/s", "m²/s²")
 # Names of the scaled quantities, and their units.
 SCALED = {"amplitudes": "m/s²", "heights": "m", "velocities": "m/s", "times": "s"}

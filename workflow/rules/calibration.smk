@@ -1,11 +1,17 @@
 # Parameters of a conveyor from measured velocities, and of the paper's conveyor from its numbers. Only a config with
 # `calibration.measurements` has targets of measured velocities. The simulation study of the method, docs/calibration_study.md, and the
 # measurements of the example are made on request.
+from scripts.calibration.effort import study_sets
+
+CALIBRATION_FILES = [result("calibration.md"), figure_file("calibration")] if MEASURED["calibration"] else []
+# The data sets of the simulation study, numbered through.
+STUDY_KINDS = study_sets(config["calibration"]["effort"])
+STUDY_SETS = [result(f"calibration_study/{kind}_{number}.json") for number, kind in enumerate(STUDY_KINDS)]
 
 
 rule calibration:
     input:
-        measurements=measurements,
+        measurements=measured_file("calibration"),
     output:
         **tables_of("calibration/parameters", "calibration/samples", "calibration/fit", "calibration/alternatives"),
     log:
@@ -42,7 +48,7 @@ rule calibration_prediction:
 rule calibration_page:
     input:
         **tables_of(*(f"calibration/{name}" for name in ("parameters", "fit", "alternatives", "prediction", "next"))),
-        measurements=measurements,
+        measurements=measured_file("calibration"),
         template=source("workflow/templates/calibration.md"),
     output:
         page=result("calibration.md"),
@@ -158,7 +164,7 @@ rule identification_posterior:
 
 
 # Not for a config with measurements, which reads this file at its start.
-if not HAS_MEASUREMENTS:
+if not MEASURED["calibration"]:
 
     rule measured_example:
         output:

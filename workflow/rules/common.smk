@@ -3,10 +3,9 @@ import os
 import re
 import signal
 
-from scripts.calibration.effort import study_sets
-from scripts.excitation.settings import EXCITATION_TABLES
 from scripts.figures.titles import title_of
 from scripts.pipeline.source_hash import source_hash
+from workflow.config import MEASURED_FILES
 from workflow.config.entries import ENTRIES, resolve
 from workflow.config.files import DEFAULT_FILES, ROOT
 from workflow.config.sharing import THREADS, plan
@@ -38,6 +37,12 @@ def source(path):
 def sources(pattern):
     """The files of this workflow that match a pattern, without compiled Python."""
     return sorted(source(path) for path in ROOT.glob(pattern) if path.is_file() and path.suffix != ".pyc")
+
+
+def modules(pattern):
+    """The modules of scripts/ that match a pattern, as paths below it without ".py"."""
+    files = sorted((ROOT / "scripts").glob(f"{pattern}.py"))
+    return [file.relative_to(ROOT / "scripts").with_suffix("").as_posix() for file in files if file.stem != "__init__"]
 
 
 def result(name):
@@ -135,14 +140,10 @@ def check_claims(target):
         raise WorkflowError(f"{target} needs the paper's claims, which this config lacks; use the paper's config")
 
 
-def from_paper(tables):
-    """Inputs of a page with the paper's results; an error for a config without the paper's claims."""
-
-    def inputs(wildcards):
-        check_claims("the text of README, article and site")
-        return tables
-
-    return inputs
+def tables_of_facts(wildcards):
+    """The tables behind the text of README, article and site; an error for a config without the paper's claims."""
+    check_claims("the text of README, article and site")
+    return FACTS
 
 
 def expected(wildcards, input):
@@ -168,64 +169,27 @@ def rows_of_shard(wildcards):
     return [first, min(first + sweep.rows, sweep.points)]
 
 
-# -- excitation --------------------------------------------------------------------------------------------------------
+# -- measured files ----------------------------------------------------------------------------------------------------
 
-HAS_RECORDING = "measured" in config["excitation"]
-NO_RECORDING = (
-    "a measured drive needs the file of an accelerometer; give an overlay with a prefix that names a CSV file, relative to itself: "
-    "excitation: {measured: FILE.csv}"
-)
-
-
-def recording(wildcards):
-    """The accelerometer file; an error for a config without one."""
-    if not HAS_RECORDING:
-        raise WorkflowError(NO_RECORDING)
-    return config["excitation"]["measured"]
+MEASURED = {section: config[section].get(key) for section, key in MEASURED_FILES}
+# Errors for a config without such a file.
+NOT_MEASURED = {
+    "calibration": "a calibration needs measured velocities; give an overlay with a prefix that names a CSV file of them, relative "
+    "to itself: calibration: {measurements: FILE.csv}",
+    "excitation": "a measured drive needs the file of an accelerometer; give an overlay with a prefix that names a CSV file, relative "
+    "to itself: excitation: {measured: FILE.csv}",
+}
 
 
-def excitation_files():
-    """What a config with an accelerometer file makes beside all figures."""
-    if not HAS_RECORDING:
-        return []
-    return [result("excitation.md"), result("measured_drive.yaml"), figure_file("excitation")]
+def measured_file(section):
+    """Input: the measured file that a section names; an error for a config without one."""
 
+    def file(wildcards):
+        if not MEASURED[section]:
+            raise WorkflowError(NOT_MEASURED[section])
+        return MEASURED[section]
 
-# -- calibration -------------------------------------------------------------------------------------------------------
-
-
-HAS_MEASUREMENTS = "measurements" in config["calibration"]
-NO_MEASUREMENTS = (
-    "a calibration needs measured velocities; give an overlay with a prefix that names a CSV file of them, relative to itself: "
-    "calibration: {measurements: FILE.csv}"
-)
-
-
-def measurements(wildcards):
-    """The file of measured velocities; an error for a config without one."""
-    if not HAS_MEASUREMENTS:
-        raise WorkflowError(NO_MEASUREMENTS)
-    return config["calibration"]["measurements"]
-
-
-def calibration_of_parts():
-    """The samples from which the parameters of parts are drawn, and their best values, if the config says so."""
-    return tables_of("calibration/samples", "calibration/parameters") if config["parts"].get("calibrated") else {}
-
-
-def calibrated_overlay():
-    """The overlay of calibrated parts, which exists only if the model explains the measurements."""
-    return [result("calibrated.yaml")] if config["parts"].get("calibrated") else []
-
-
-def calibration_files():
-    """What a config with measurements makes beside all figures."""
-    return [result("calibration.md"), figure_file("calibration")] if HAS_MEASUREMENTS else []
-
-
-# The data sets of the simulation study, numbered through.
-STUDY_KINDS = study_sets(config["calibration"]["effort"])
-STUDY_SETS = [result(f"calibration_study/{kind}_{number}.json") for number, kind in enumerate(STUDY_KINDS)]
+    return file
 
 
 # -- figures and claims ------------------------------------------------------------------------------------------------
@@ -239,16 +203,13 @@ NO_FIGURES = {
 }
 if "sensitivity" not in FIGURES:
     NO_FIGURES["sensitivity"] = "its derivatives are in dimensionless groups, which a plate with harmonics has not"
-if not HAS_RECORDING:
-    NO_FIGURES["excitation"] = NO_RECORDING
-if not HAS_MEASUREMENTS:
-    NO_FIGURES["calibration"] = NO_MEASUREMENTS
+# A figure of a measured file has the name of the section that names this file.
+NO_FIGURES |= {section: reason for section, reason in NOT_MEASURED.items() if not MEASURED[section]}
 
 
 def caption_scripts(figures):
     """The scripts that compute numbers of the captions of some figures."""
-    scripts = [f"figures/caption_numbers/{figure}" for figure in figures]
-    return [script for script in scripts if (ROOT / f"scripts/{script}.py").is_file()]
+    return [script for figure in figures for script in modules(f"figures/caption_numbers/{figure}")]
 
 
 def tables_of_figure(wildcards):

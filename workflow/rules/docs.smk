@@ -10,7 +10,12 @@ from workflow.config.stages import STAGES
 DOCS, PROJECT = (result("docs/"), result("docs/")) if PREFIX else ("docs/", "")
 # Begin of the names of pages about another conveyor, which the repository keeps as well.
 EXAMPLE = config["prefix"] and f"{config['prefix']}_"
-EXAMPLE_PAGES = {"calibration": "calibration.md", "chart": "operating/chart.md"}
+# Pages that are copies of results.
+COPIES = {
+    f"{DOCS}claims.md": result("claims.md"),
+    f"docs/{EXAMPLE}calibration.md": result("calibration.md"),
+    f"docs/{EXAMPLE}chart.md": result("operating/chart.md"),
+}
 SCENES = published_scenes(config)
 SCENE_FILES = [f"{DOCS}benchmark/{scene}.json" for scene in SCENES]
 # Inputs that fill the template of each page.
@@ -51,17 +56,9 @@ DIAGRAMS = {name: result(f"diagrams/{name}.png") for name in ("cycle", "contact"
 ARTICLE = source("workflow/templates/article.md")
 SITE_TEMPLATES = [ARTICLE, *sources("workflow/templates/site/*.md")]
 SITE_PAGES = [result(f"site_pages/{Path(file).name}") for file in SITE_TEMPLATES]
-LIBRARY = [
-    Path(file).relative_to(source("scripts")).with_suffix("").as_posix()
-    for file in sources("scripts/conveyor/**/*.py")
-    if not file.endswith("__init__.py")
-]
+LIBRARY = modules("conveyor/**/*")
 # The reference of tables lists the columns of all modules with a mapping TABLES.
-STAGE_MODULES = [
-    Path(file).relative_to(source("scripts")).with_suffix("").as_posix()
-    for stage_name in STAGES
-    for file in sources(f"scripts/{stage_name}/*.py")
-]
+STAGE_MODULES = [module for name in STAGES for module in modules(f"{name}/*")]
 
 
 rule page:
@@ -102,21 +99,6 @@ rule published_scene:
         "../../scripts/make.py"
 
 
-# The page of claims that the repository keeps.
-rule claims_page:
-    input:
-        result("claims.md"),
-    output:
-        f"{DOCS}claims.md",
-    log:
-        log_file("docs/claims"),
-    localrule: True
-    message:
-        "The page claims.md"
-    run:
-        Path(output[0]).write_bytes(Path(input[0]).read_bytes())
-
-
 rule companion:
     input:
         sources("scripts/docs/companion/*.js*") + sources("scripts/docs/companion/page.*"),
@@ -139,7 +121,7 @@ rule companion:
 # The numbers of README, article, site and metadata.
 rule facts:
     input:
-        unpack(from_paper(FACTS)),
+        unpack(tables_of_facts),
         provenance=result("provenance.json"),
     output:
         result("facts.json"),
@@ -300,18 +282,18 @@ rule picture:
         "../../scripts/make.py"
 
 
-rule example_page:
+rule copied_page:
     input:
-        lambda wildcards: result(EXAMPLE_PAGES[wildcards.page]),
+        lambda wildcards: COPIES[wildcards.page],
     output:
-        f"docs/{EXAMPLE}{{page}}.md",
+        "{page}",
     log:
-        log_file("docs/{page}"),
+        log_file("docs/copied/{page}"),
     wildcard_constraints:
-        page=one_of(EXAMPLE_PAGES),
+        page=one_of(COPIES),
     localrule: True
     message:
-        "The page {wildcards.page} of an example"
+        "The page {wildcards.page}"
     run:
         Path(output[0]).write_bytes(Path(input[0]).read_bytes())
 

@@ -1,10 +1,14 @@
 # The drive from the file of an accelerometer. Only a config with `excitation.measured` has these targets. The file of the example is
 # made on request.
+from scripts.excitation.settings import EXCITATION_TABLES
+
+EXCITATION_FILES = [result("excitation.md"), result("measured_drive.yaml"), figure_file("excitation")]
+EXCITATION_FILES = EXCITATION_FILES if MEASURED["excitation"] else []
 
 
 rule excitation:
     input:
-        measured=recording,
+        measured=measured_file("excitation"),
     output:
         **tables_of(*(f"excitation/{name}" for name in EXCITATION_TABLES)),
     log:
@@ -90,7 +94,7 @@ rule measured_drive:
 
 
 # Not for a config with an accelerometer file, which reads this file at its start.
-if not HAS_RECORDING:
+if not MEASURED["excitation"]:
 
     rule accelerometer_example:
         output:

@@ -1,6 +1,12 @@
 # Where to run a conveyor: the attractors that initial conditions in a box reach, the transit of parts along a track, and what
 # follows for the operator.
 
+# If the config says so, the parameters of parts are drawn from the samples of the calibration, around their best values. The overlay
+# exists only if the model explains the measurements.
+IS_CALIBRATED = config["parts"].get("calibrated")
+CALIBRATED_PARTS = tables_of("calibration/samples", "calibration/parameters") if IS_CALIBRATED else {}
+CALIBRATED_OVERLAY = [result("calibrated.yaml")] if IS_CALIBRATED else []
+
 
 rule operating:
     output:
@@ -20,8 +26,8 @@ rule operating:
 
 rule transit:
     input:
-        calibrated_overlay(),
-        **calibration_of_parts(),
+        CALIBRATED_OVERLAY,
+        **CALIBRATED_PARTS,
     output:
         **tables_of("operating/transit"),
     log:
@@ -57,8 +63,8 @@ rule drift:
 
 rule advice:
     input:
-        calibrated_overlay(),
-        **calibration_of_parts(),
+        CALIBRATED_OVERLAY,
+        **CALIBRATED_PARTS,
         **tables_of("operating/transit", "operating/shares"),
     output:
         **tables_of("operating/advice", "operating/changes"),
