@@ -1,29 +1,13 @@
 """Settings of the stage accuracy: comparisons of methods, with units and ranges."""
 
 from operator import itemgetter
-from typing import Annotated
 
-from pydantic import Field
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import (
-    MOST_POINTS,
-    Duration,
-    Effort,
-    Line,
-    Name,
-    Reference,
-    Step,
-    Tolerance,
-    many,
-    mapping,
-    whole,
-)
+from ..pipeline.settings import MOST_POINTS, Duration, Effort, Line, Name, Reference, described, many, mapping, whole
 from ..pipeline.table_settings import FOLLOWED, model_of, with_model
 from .scenes import CHAOTIC, SCENES
 
-Tolerances = many(Tolerance, "relative tolerances")
-Steps = many(Step, "time steps of the fixed-step methods")
 Repeats = whole("repetitions", 1, 10**9)
 
 
@@ -32,7 +16,25 @@ class Precision(TypedDict):
     repeats: Repeats
 
 
-# Points of a table of each section that are compared with a more accurate solution.
+class SceneBudget(TypedDict):
+    effort: Effort
+    reasons: described(dict[Reference, Line], "why a table is more accurate than its figure needs")
+
+
+class MapCheck(TypedDict):
+    maps: many(Name, "sweeps over two parameters")
+    points: whole("points of each map", 1, MOST_POINTS)
+
+
+SECTIONS = {
+    "benchmark": mapping("speed and error of the solver and of the paper's method", {"repeats": Repeats}),
+    "precision": described(Precision, "error against cost of all methods"),
+    "stability": mapping("limits of stability of the methods", {"effort": Effort}),
+    "scene_budget": described(SceneBudget, "accuracy that each figure needs"),
+    "map_check": described(MapCheck, "check of state maps by brute force"),
+    "settling_times": mapping("time until a motion settles", {"effort": Effort}),
+}
+# Points of a table of each section that are compared with a more accurate solution, by an effort of 1.
 BUDGETED = {
     "sweeps": 400,
     "signals": 10,
@@ -46,28 +48,17 @@ BUDGETED = {
 }
 
 
-class SceneBudget(TypedDict):
-    effort: Effort
-    reasons: Annotated[dict[Reference, Line], Field(description="why a table is more accurate than its figure needs")]
-
-
-class MapCheck(TypedDict):
-    maps: many(Name, "sweeps over two parameters")
-    points: whole("points of each map", 1, MOST_POINTS)
-
-
-SECTIONS = {
-    "benchmark": mapping("speed and error of the solver and of the paper's method", {"repeats": Repeats}),
-    "precision": Annotated[Precision, Field(description="error against cost of all methods")],
-    "stability": mapping("limits of stability of the methods", {"effort": Effort}),
-    "scene_budget": Annotated[SceneBudget, Field(description="accuracy that each figure needs")],
-    "map_check": Annotated[MapCheck, Field(description="check of state maps by brute force")],
-    "settling_times": mapping("time until a motion settles", {"effort": Effort}),
-}
+def benchmark_settings(config: dict) -> dict:
+    return {**config["benchmark"], "tolerance": config["solver"]["tolerance"], "model": model_of(config)}
 
 
 def precision_settings(config: dict, scene: str) -> dict:
     return {"duration": config["precision"]["duration"], "model": {**config["model"], **SCENES[scene]}}
+
+
+def reference_check_settings(config: dict) -> dict:
+    """The scene whose reference is computed a second time: the jumping part."""
+    return precision_settings(config, "jumping")
 
 
 def published_scenes(config: dict) -> dict[str, dict]:
@@ -77,29 +68,19 @@ def published_scenes(config: dict) -> dict[str, dict]:
     return {scene["scene"]: {**scene, "model": {**config["model"], **scene["model"]}} for scene in (*scenes, CHAOTIC)}
 
 
-def reference_settings(config: dict) -> dict:
-    """The scene whose reference is computed a second time: the jumping part."""
-    return precision_settings(config, "jumping")
-
-
-def budget_settings(config: dict) -> dict:
+def scene_budget_settings(config: dict) -> dict:
     own = config["scene_budget"]
     points = {section: max(1, round(own["effort"] * count)) for section, count in BUDGETED.items()}
     return {"points": points, "reasons": own["reasons"]}
 
 
-def benchmark_settings(config: dict) -> dict:
-    return {**config["benchmark"], "tolerance": config["solver"]["tolerance"], "model": model_of(config)}
-
-
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     "results/benchmark": benchmark_settings,
-    "results/reference_check": reference_settings,
+    "results/reference_check": reference_check_settings,
     "results/stability": itemgetter("stability"),
-    "results/stability_estimates": lambda config: {"model": model_of(config)},
-    **dict.fromkeys(("results/scene_budget", "results/budget_times"), budget_settings),
-    "results/theory": lambda config: {"model": model_of(config)},
+    **dict.fromkeys(("results/stability_estimates", "results/theory"), lambda config: {"model": model_of(config)}),
+    **dict.fromkeys(("results/scene_budget", "results/budget_times"), scene_budget_settings),
     "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),
 }

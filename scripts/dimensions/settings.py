@@ -1,10 +1,8 @@
 """Settings of the stage dimensions: fractal dimensions, with units and ranges."""
 
-from typing import Annotated, NotRequired
+from typing import NotRequired
 
-from pydantic import Field
-
-from ..pipeline.settings import Duration, Followed, Name, whole, word
+from ..pipeline.settings import Duration, Followed, entries, whole, word
 
 ESTIMATORS = ("paper", "box", "correlation")
 
@@ -15,6 +13,4 @@ class Dimension(Followed):
     samples: NotRequired[whole("number of samples of the settled motion", 100, 10**8)]
 
 
-SECTIONS = {
-    "dimensions": Annotated[dict[Name, Dimension], Field(description="fractal dimensions of phase portraits")],
-}
+SECTIONS = {"dimensions": entries(Dimension, "fractal dimensions of phase portraits")}

@@ -1,20 +1,17 @@
 """Settings of the stage docs: pages, with units and ranges."""
 
-from typing import Annotated
-
-from pydantic import Field
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import Model, Name, many, mapping, number
+from ..pipeline.settings import Model, Name, described, entries, many, mapping, number
 
 
 class Companion(TypedDict):
     maps: many(Name, "sweeps over two parameters")
-    presets: Annotated[dict[Name, Model], Field(description="conveyors of the page", min_length=1)]
+    presets: entries(Model, "conveyors of the page", min_length=1)
 
 
 SECTIONS = {
-    "companion": Annotated[Companion, Field(description="the interactive page")],
+    "companion": described(Companion, "the interactive page"),
     "archive": mapping(
         "the archive of figures, tables and sources",
         {"megabytes": number("largest size of the archive", "MB", gt=0, le=1e6)},

@@ -1,17 +1,16 @@
 """Settings of the stage excitation: the measured drive and drives with one harmonic, with units and ranges."""
 
 from operator import itemgetter
-from typing import Annotated, NotRequired
+from typing import NotRequired
 
-from pydantic import Field
 from typing_extensions import TypedDict
 
-from ..operating.settings import transit_settings
-from ..pipeline.settings import Acceleration, Line, check_ascending, many, number, whole, word
+from ..operating.settings import parts_settings
+from ..pipeline.settings import Acceleration, Line, check_ascending, described, many, number, whole, word
 
 
 class Excitation(TypedDict):
-    measured: NotRequired[Annotated[Line, Field(description="CSV file of an accelerometer, relative to this overlay")]]
+    measured: NotRequired[described(Line, "CSV file of an accelerometer, relative to this overlay")]
     unit: word("unit of the accelerations in the file", "m/s²", "g")
     mount: number("angle of the sensor's axis x above the track, for columns x and z", "rad", ge=-3.1416, le=3.1416)
 
@@ -25,27 +24,23 @@ class CleanDrive(TypedDict):
 
 
 SECTIONS = {
-    "excitation": Annotated[Excitation, Field(description="the drive from an accelerometer file")],
-    "clean_drive": Annotated[CleanDrive, Field(description="transit on drives with one harmonic")],
+    "excitation": described(Excitation, "the drive from an accelerometer file"),
+    "clean_drive": described(CleanDrive, "transit on drives with one harmonic"),
 }
+EXCITATION_TABLES = ("parameters", "harmonics", "quality", "samples", "waveform", "spectrum")
 
 
 def comparison_settings(config: dict) -> dict:
     """The parts of the transit table, on the measured drive."""
-    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
-    measured = ("frequency", "angle", "phase_shift", "harmonics")
-    model = {name: value for name, value in transit["model"].items() if name not in measured}
-    return {**transit, "model": model}
+    return parts_settings(config, without=("frequency", "angle", "phase_shift", "harmonics"))
 
 
 def clean_drive_settings(config: dict) -> dict:
     """The parts of the transit table, on drives with one harmonic."""
-    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
-    return {**transit, **config["clean_drive"]}
+    return {**parts_settings(config), **config["clean_drive"]}
 
 
 # The tables that are not entries, and the function that returns the settings of each.
-EXCITATION_TABLES = ("parameters", "harmonics", "quality", "samples", "waveform", "spectrum")
 TABLE_SETTINGS = {
     **dict.fromkeys((f"excitation/{name}" for name in EXCITATION_TABLES), itemgetter("excitation")),
     "excitation/comparison": comparison_settings,

@@ -2,10 +2,21 @@
 
 from typing import Annotated, NotRequired
 
-from pydantic import AfterValidator, Field, Strict
+from pydantic import AfterValidator, Strict
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import Acceleration, HeightNumber, Line, Name, Period, Reference, interval, number, word
+from ..pipeline.settings import (
+    Acceleration,
+    HeightNumber,
+    Line,
+    Period,
+    Reference,
+    described,
+    entries,
+    interval,
+    number,
+    word,
+)
 
 # [amplitude, initial height]
 Portrait = Annotated[tuple[Acceleration, HeightNumber], Strict(False), AfterValidator(list)]
@@ -18,23 +29,21 @@ class FigureSettings(TypedDict, total=False):
     critical_height: HeightNumber
     two_states: interval(Acceleration, "interval with two states of motion")
     first_positive: Acceleration
-    portraits: Annotated[list[Portrait], Field(min_length=3, max_length=3, description="three phase portraits")]
+    portraits: described(list[Portrait], "three phase portraits", min_length=3, max_length=3)
     longest_period: Period
     paper_error: number("error of the paper's fit", "m²", gt=0, le=1)
 
 
 class Figure(TypedDict):
-    section: Annotated[Line, Field(description="section of the paper")]
-    paper_only: NotRequired[Annotated[Line, Field(description="why only the paper's conveyor has this figure")]]
+    section: described(Line, "section of the paper")
+    paper_only: NotRequired[described(Line, "why only the paper's conveyor has this figure")]
     needs: word("motion that the figure needs", "feeding", "vertical", "nothing")
-    tables: Annotated[dict[Name, Reference], Field(description="tables by the roles that the plot script knows")]
-    settings: NotRequired[Annotated[FigureSettings, Field(description="numbers that the plot script draws")]]
-    caption_tables: NotRequired[Annotated[dict[Name, Reference], Field(description="further tables of the caption")]]
+    tables: entries(Reference, "tables by the roles that the plot script knows")
+    settings: NotRequired[described(FigureSettings, "numbers that the plot script draws")]
+    caption_tables: NotRequired[entries(Reference, "further tables of the caption")]
 
 
 SECTIONS = {
-    "figures": Annotated[dict[Name, Figure], Field(description="figures")],
-    "figures_on_request": Annotated[
-        dict[Name, Figure], Field(description="figures that only an explicit target makes")
-    ],
+    "figures": entries(Figure, "figures"),
+    "figures_on_request": entries(Figure, "figures that only an explicit target makes"),
 }

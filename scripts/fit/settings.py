@@ -1,11 +1,10 @@
 """Settings of the stage fit: fits of Eq. 13, with units and ranges."""
 
-from typing import Annotated, NotRequired
+from typing import NotRequired
 
-from pydantic import Field
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import Acceleration, Name, interval, mapping, number, span
+from ..pipeline.settings import Acceleration, Name, described, entries, interval, mapping, number, span
 
 FIT = {
     "A": number("parameter A of Eq. 13", "m²/s²", ge=-1e6, le=1e6),
@@ -15,13 +14,11 @@ FIT = {
 
 
 class Regression(TypedDict):
-    critical: Annotated[Name, Field(description="entry of `critical` that Eq. 13 is fitted to")]
+    critical: described(Name, "entry of `critical` that Eq. 13 is fitted to")
     acceleration: NotRequired[interval(Acceleration, "amplitudes of the fitted data")]
     bounds: mapping("search intervals", {name: interval(item, f"bounds of {name}") for name, item in FIT.items()})
     valley: span(FIT["B"], "values of B along the valley")
     paper: NotRequired[mapping("the paper's parameters", FIT)]
 
 
-SECTIONS = {
-    "regressions": Annotated[dict[Name, Regression], Field(description="fits of Eq. 13 to critical heights")],
-}
+SECTIONS = {"regressions": entries(Regression, "fits of Eq. 13 to critical heights")}

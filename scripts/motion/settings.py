@@ -1,8 +1,7 @@
 """Settings of the stage motion: the motion of single parts, with units and ranges."""
 
-from typing import Annotated, NotRequired
+from typing import NotRequired
 
-from pydantic import Field
 from typing_extensions import TypedDict
 
 from ..pipeline.settings import (
@@ -11,9 +10,9 @@ from ..pipeline.settings import (
     Followed,
     HeightNumber,
     Model,
-    Name,
     axis,
     check_ascending,
+    entries,
     number,
     span,
 )
@@ -39,10 +38,8 @@ class Impacts(TypedDict):
 
 
 SECTIONS = {
-    "critical": Annotated[
-        dict[Name, Critical], Field(description="initial heights at which the state of motion changes")
-    ],
-    "signals": Annotated[dict[Name, Signal], Field(description="motion of part and plate at given times")],
-    "spectra": Annotated[dict[Name, Spectrum], Field(description="amplitude spectra of the velocities")],
-    "impacts": Annotated[dict[Name, Impacts], Field(description="first impacts of parts that start in the air")],
+    "critical": entries(Critical, "initial heights at which the state of motion changes"),
+    "signals": entries(Signal, "motion of part and plate at given times"),
+    "spectra": entries(Spectrum, "amplitude spectra of the velocities"),
+    "impacts": entries(Impacts, "first impacts of parts that start in the air"),
 }

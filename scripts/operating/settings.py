@@ -1,10 +1,10 @@
 """Settings of the stage operating: where to run a conveyor, with units and ranges."""
 
+from collections.abc import Iterable
 from functools import partial
 from operator import itemgetter
-from typing import Annotated, NotRequired
+from typing import NotRequired
 
-from pydantic import Field
 from typing_extensions import TypedDict
 
 from ..conveyor import DESCRIPTIONS, UNITS
@@ -16,29 +16,27 @@ from ..pipeline.settings import (
     Seed,
     Tolerance,
     Velocity,
+    described,
     interval,
     mapping,
     number,
     span,
     whole,
 )
-from ..pipeline.table_settings import model_of
+from ..pipeline.table_settings import INITIAL_CONDITION, model_of
 
-Resolution = number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)
+DEVIATION = number("relative standard deviation", "of the value in the model", ge=0, le=1)
 
 
 class Operating(TypedDict):
     acceleration: Accelerations
-    resolution: Resolution
+    resolution: number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)
     height: interval(number("height above the plate", "m", ge=0, le=10), "initial heights", point=True)
     vz0: interval(Velocity, "initial velocities", point=True)
     psi0: interval(MODEL_TYPES["psi0"], "phases of the excitation", point=True)
     starts: whole("random initial conditions per amplitude", 16, 10**6)
     seed: Seed
     tolerance: Tolerance
-
-
-DEVIATION = number("relative standard deviation", "of the value in the model", ge=0, le=1)
 
 
 class Parts(TypedDict):
@@ -48,9 +46,7 @@ class Parts(TypedDict):
     mass: DEVIATION
     acceleration: DEVIATION
     calibrated: NotRequired[
-        Annotated[
-            bool, Field(description="draw friction, damping and stiffness from the samples of the calibration, too")
-        ]
+        described(bool, "draw friction, damping and stiffness from the samples of the calibration, too")
     ]
     seed: Seed
 
@@ -105,43 +101,50 @@ class DriveBounds(TypedDict):
 
 
 class Drive(TypedDict):
-    bounds: Annotated[DriveBounds, Field(description="search interval of each parameter")]
+    bounds: described(DriveBounds, "search interval of each parameter")
     displacement: number("largest amplitude of the drive's displacement, â/ω²", "m", gt=0, le=1)
     velocity: number("least useful velocity of the slowest 5 % of the parts", "m/s", gt=0, le=100)
     impact_speed: number("largest impact speed that a design may have", "m/s", gt=0, le=100)
     back: number("largest share of the parts that may move back", ge=0, lt=1)
-    search: Annotated[DriveSearch, Field(description="parts of each design of the search")]
+    search: described(DriveSearch, "parts of each design of the search")
     population: whole("population of NSGA-II", 4, 10**4)
     generations: whole("generations of NSGA-II", 4, 10**5)
 
 
 SECTIONS = {
-    "operating": Annotated[Operating, Field(description="shares of the attractors over the amplitude")],
-    "parts": Annotated[Parts, Field(description="how parts differ")],
-    "transit": Annotated[Transit, Field(description="velocities of parts along a track over the amplitude")],
+    "operating": described(Operating, "shares of the attractors over the amplitude"),
+    "parts": described(Parts, "how parts differ"),
+    "transit": described(Transit, "velocities of parts along a track over the amplitude"),
     "drift": mapping("drift and diffusion in chaos, and the spread over the track's length", {"effort": Effort}),
-    "advice": Annotated[Advice, Field(description="advice on where to run the conveyor")],
-    "track": Annotated[Track, Field(description="velocity over inclination and phase shift")],
-    "throws": Annotated[Throws, Field(description="comparison with the textbook theory of throw conveyors")],
-    "drive": Annotated[Drive, Field(description="search for the settings of the drive")],
+    "advice": described(Advice, "advice on where to run the conveyor"),
+    "track": described(Track, "velocity over inclination and phase shift"),
+    "throws": described(Throws, "comparison with the textbook theory of throw conveyors"),
+    "drive": described(Drive, "search for the settings of the drive"),
 }
+
+
+def box_of(config: dict, *more: str) -> dict:
+    """The box from which initial conditions are drawn, and more keys of the section `operating`."""
+    return {name: config["operating"][name] for name in ("height", "vz0", "psi0", *more)}
 
 
 def box_settings(section: str, config: dict) -> dict:
     """A section whose initial conditions are drawn from the box of the section `operating`."""
-    box = {key: value for key, value in config["operating"].items() if key not in ("acceleration", "resolution")}
     limits = {key: config["solver"][key] for key in ("settling", "mean_settling")}
-    own = {**box, **config[section], **limits}
-    stated = ("psi0", "z0", "vz0", *config[section], *own.get("bounds", ()))
-    return {**own, "model": {name: value for name, value in model_of(config).items() if name not in stated}}
+    own = {**box_of(config, "starts", "seed", "tolerance"), **config[section], **limits}
+    return {**own, "model": model_of(config, without=(*INITIAL_CONDITION, *config[section]))}
 
 
-def transit_settings(config: dict) -> dict:
-    """The box of `operating`, the section `transit`, and how its parts differ."""
-    box = {name: config["operating"][name] for name in ("height", "vz0", "psi0", "seed", "tolerance")}
-    transit = {name: value for name, value in config["transit"].items() if name != "parts"}
-    model = {name: value for name, value in model_of(config).items() if name not in ("psi0", "z0", "vz0")}
-    return {**box, **transit, "starts": config["transit"]["parts"], "spread": config["parts"], "model": model}
+def transit_settings(config: dict, without: Iterable[str] = ()) -> dict:
+    """The box of `operating`, the section `transit`, how its parts differ, and the model without some parameters."""
+    transit = {name: config["transit"][name] for name in ("acceleration", "length", "longest")}
+    own = {**box_of(config, "seed", "tolerance"), **transit, "starts": config["transit"]["parts"]}
+    return {**own, "spread": config["parts"], "model": model_of(config, without=(*INITIAL_CONDITION, *without))}
+
+
+def parts_settings(config: dict, without: Iterable[str] = ()) -> dict:
+    """The settings of the transit table without its amplitudes, for tables that follow the same parts at others."""
+    return {name: value for name, value in transit_settings(config, without).items() if name != "acceleration"}
 
 
 def drift_settings(config: dict) -> dict:
@@ -152,10 +155,8 @@ def drift_settings(config: dict) -> dict:
 
 def drive_settings(config: dict) -> dict:
     """The search follows the parts of the transit table, within the error of the amplitude that the advice states."""
-    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
     drive = config["drive"]
-    model = {name: value for name, value in transit["model"].items() if name not in drive["bounds"]}
-    return {**transit, **drive, "margin": config["advice"]["margin"], "model": model}
+    return {**parts_settings(config, without=drive["bounds"]), **drive, "margin": config["advice"]["margin"]}
 
 
 # The tables that are not entries, and the function that returns the settings of each.

@@ -1,8 +1,7 @@
 """Settings of the stage orbits: orbits, attractors and exponents, with units and ranges."""
 
-from typing import Annotated, NotRequired
+from typing import NotRequired
 
-from pydantic import Field
 from typing_extensions import TypedDict
 
 from ..pipeline.settings import (
@@ -12,9 +11,10 @@ from ..pipeline.settings import (
     Followed,
     Height,
     Model,
-    Name,
     Tolerance,
     Velocity,
+    described,
+    entries,
     interval,
     many,
     number,
@@ -42,9 +42,7 @@ class SeedOrbit(TypedDict):
 
 class Orbits(TypedDict):
     seeds: NotRequired[
-        Annotated[
-            list[SeedOrbit], Field(min_length=1, max_length=1000, description="initial conditions of the first orbits")
-        ]
+        described(list[SeedOrbit], "initial conditions of the first orbits", min_length=1, max_length=1000)
     ]
     limits: interval(Acceleration, "amplitudes between which branches are followed")
     max_period: whole("longest period that is followed", 1, 64, "excitation cycles")
@@ -59,7 +57,7 @@ class Certificates(TypedDict):
     acceleration: Accelerations
     doubled_limit: Acceleration
     doublings: whole("period doublings that are proved", 0, 8)
-    chaos: Annotated[CertifiedChaos, Field(description="proofs of chaos")]
+    chaos: described(CertifiedChaos, "proofs of chaos")
 
 
 class Attractors(TypedDict):
@@ -71,26 +69,23 @@ class Attractors(TypedDict):
 
 
 SECTIONS = {
-    "estimates": Annotated[
-        dict[Name, Estimate], Field(description="Lyapunov exponents by finite differences (Eq. 23)")
-    ],
-    "orbits": Annotated[Orbits, Field(description="periodic orbits of the vertical motion")],
-    "certificates": Annotated[Certificates, Field(description="proofs of orbits, bifurcations and chaos")],
-    "attractors": Annotated[Attractors, Field(description="stroboscopic states over the amplitude")],
+    "estimates": entries(Estimate, "Lyapunov exponents by finite differences (Eq. 23)"),
+    "orbits": described(Orbits, "periodic orbits of the vertical motion"),
+    "certificates": described(Certificates, "proofs of orbits, bifurcations and chaos"),
+    "attractors": described(Attractors, "stroboscopic states over the amplitude"),
 }
-
-
 # Further amplitudes of proofs on the paper's conveyor (m/s²): 50 to 59 for Fig. 22, then stable orbits of 4, 8 and 16
 # cycles.
 ALSO = (51.0, 52.0, 53.0, 54.0, 56.0, 57.0, 58.0, 59.0, 62.0, 62.6, 62.73)
+CERTIFIED_TABLES = ("certificates", "certified_bifurcations", "certified_chaos", "certificate_times")
 SPECTRUM_TOLERANCE = 1e-12  # of Lyapunov exponents: λ1 + λ2 is checked to 1e-8
 
 
-def spectrum_settings(config: dict) -> dict:
-    return with_model(config, "attractors", solver=FOLLOWED, normal=True) | {"tolerance": SPECTRUM_TOLERANCE}
+def branches_settings(config: dict) -> dict:
+    return with_model(config, "orbits", solver=("tolerance",), normal=True)
 
 
-def certificates_settings(config: dict) -> dict:
+def certified_settings(config: dict) -> dict:
     own = config["certificates"]
     axis = own["acceleration"]
     ends = axis if isinstance(axis, list) else (axis["start"], axis["stop"])
@@ -98,20 +93,18 @@ def certificates_settings(config: dict) -> dict:
     return {**own, "also": also, "model": model_of(config, "orbits", normal=True)}
 
 
+def strobes_settings(config: dict) -> dict:
+    return with_model(config, "attractors", solver=FOLLOWED, normal=True)
+
+
+def exponents_settings(config: dict) -> dict:
+    return strobes_settings(config) | {"tolerance": SPECTRUM_TOLERANCE}
+
+
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
-    **dict.fromkeys(
-        ("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
-        lambda config: with_model(config, "orbits", solver=("tolerance",), normal=True),
-    ),
-    **dict.fromkeys(
-        (
-            *("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
-            "orbits/certificate_times",
-        ),
-        certificates_settings,
-    ),
-    "attractors/strobes": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
-    "lyapunov/spectrum": spectrum_settings,
-    "lyapunov/witnesses": lambda config: with_model(config, "attractors", solver=FOLLOWED, normal=True),
+    **dict.fromkeys(("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"), branches_settings),
+    **dict.fromkeys((f"orbits/{name}" for name in CERTIFIED_TABLES), certified_settings),
+    **dict.fromkeys(("attractors/strobes", "lyapunov/witnesses"), strobes_settings),
+    "lyapunov/spectrum": exponents_settings,
 }

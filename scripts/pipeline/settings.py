@@ -50,14 +50,19 @@ def text(description: str, pattern: str, expected: str) -> Any:
     return Annotated[str, Field(description=description, pattern=f"^{pattern}$", json_schema_extra=extra)]
 
 
+def described(item: Any, description: str, **bounds: int) -> Any:
+    """A type with its own description, and for a mapping or a list the bounds min_length and max_length."""
+    return Annotated[item, Field(description=description, **bounds)]
+
+
 def word(description: str, *words: str) -> Any:
     """One of several words."""
-    return Annotated[Literal[words], Field(description=description)]
+    return described(Literal[words], description)
 
 
 def mapping(description: str, keys: dict[str, Any], total: bool = True) -> Any:
     """A small mapping without its own class; `total` says whether all of its keys are required."""
-    return Annotated[TypedDict("_".join(keys), keys, total=total), Field(description=description)]
+    return described(TypedDict("_".join(keys), keys, total=total), description)
 
 
 Line = text("text", r"[^\x00-\x1f]+", "text on one line; put it in quotes")
@@ -67,6 +72,11 @@ Name = text(
     f"a name of letters, digits, - and _ that begins with a letter, of at most {LONGEST_NAME} characters",
 )
 Reference = text("table of the config, as SECTION/NAME", rf"[a-z_]+/{NAME}", "SECTION/NAME, as in sweeps/amplitudes")
+
+
+def entries(item: Any, description: str, **bounds: int) -> Any:
+    """A mapping whose keys are names of the user's choice."""
+    return described(dict[Name, item], description, **bounds)
 
 
 def check_distinct(values: list) -> list:
@@ -207,10 +217,7 @@ Axes = Annotated[
     WrapValidator(keep_order),
     Field(description="axes of the table: lists of values or {start, stop, num}; the first one varies slowest"),
 ]
-Model = Annotated[
-    TypedDict("Model", MODEL_TYPES | OPTIONAL, total=False),
-    Field(description="parameters that differ from the section `model`"),
-]
+Model = described(TypedDict("Model", MODEL_KEYS, total=False), "parameters that differ from the section `model`")
 
 # Types of several keys.
 Acceleration, Accelerations = MODEL_TYPES["acceleration"], AXIS_TYPES["acceleration"]

@@ -1,18 +1,15 @@
 """Settings of the stage sensitivity: derivatives and curves of bifurcations, with units and ranges."""
 
-from typing import Annotated
-
-from pydantic import Field
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import Effort, Name, mapping, number
+from ..pipeline.settings import Effort, Name, described, mapping, number
 from ..pipeline.table_settings import model_of
 
 Factor = number("factor by which a parameter is increased and decreased", gt=1, le=1e3)
 
 
 class Sensitivity(TypedDict):
-    critical: Annotated[Name, Field(description="entry of `critical` over the amplitude alone")]
+    critical: described(Name, "entry of `critical` over the amplitude alone")
     effort: Effort
     factors: mapping(
         "range of each parameter in bifurcation curves",
@@ -20,9 +17,7 @@ class Sensitivity(TypedDict):
     )
 
 
-SECTIONS = {
-    "sensitivity": Annotated[Sensitivity, Field(description="derivatives of bifurcations and critical heights")],
-}
+SECTIONS = {"sensitivity": described(Sensitivity, "derivatives of bifurcations and critical heights")}
 
 
 def derivatives_settings(config: dict) -> dict:

@@ -1,10 +1,8 @@
 """Settings of the stage sweeps: sweeps, with units and ranges."""
 
-from typing import Annotated, NotRequired
+from typing import NotRequired
 
-from pydantic import Field
-
-from ..pipeline.settings import Duration, Followed, Name, word
+from ..pipeline.settings import Duration, Followed, entries, word
 
 
 class Sweep(Followed):
@@ -12,6 +10,4 @@ class Sweep(Followed):
     needs: NotRequired[word("vertical leaves out the feeding velocity, which is faster", "feeding", "vertical")]
 
 
-SECTIONS = {
-    "sweeps": Annotated[dict[Name, Sweep], Field(description="trajectories for all combinations of axes")],
-}
+SECTIONS = {"sweeps": entries(Sweep, "trajectories for all combinations of axes")}

@@ -32,8 +32,8 @@ from .sharing import plan
 from .tables import NAMED, TABLES, entry_of, references, references_of
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
-RESERVED = {*NAMED, *(table.split("/")[0] for table in TABLES), "archive", "article", "benchmarks", "captions", "checks"}
-RESERVED |= {"claims", "docs", "logs", "runs", "sections", "shards", "site", "site_pages"}
+RESERVED = {*NAMED, *(table.split("/")[0] for table in TABLES), "archive", "article", "benchmarks", "captions"}
+RESERVED |= {"checks", "claims", "docs", "logs", "runs", "sections", "shards", "site", "site_pages"}
 LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
 MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds
 # s, a multiple of all time steps of the comparison of methods (STEPS in scripts/accuracy/precision.py)
