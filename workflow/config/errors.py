@@ -79,17 +79,12 @@ CONSTANTS = {
     "sensitivity/selection": {"sensitivity": "longest_period most"},
     "workflow/config/sharing": {"sharing": "seconds megabytes most_jobs"},
 }
-# Sections and settings of earlier versions that nothing uses any more.
-GONE = (
-    *(
-        "precision_estimates",
-        "rigid_part",
-        "scaling",
-        "companion.tolerance",
-        "companion.cycles",
-    ),
-    *(f"stability.{key}" for key in ("hard", "rivals", "stick", "chatter_steps")),
-)
+# Keys of each section that nothing uses any more.
+GONE = {
+    "": "precision_estimates rigid_part scaling",
+    "companion": "tolerance cycles",
+    "stability": "hard rivals stick chatter_steps",
+}
 # Settings with a new name.
 RENAMED = {
     "settling_times.starts": "settling_times.effort, a factor of the number of initial conditions",
@@ -129,11 +124,11 @@ def fault_of_removed(path: list[str | int]) -> str:
     """What to do about a setting of an earlier version; empty for keys that never were settings."""
     # Each entry and each figure has its own name.
     key = format_key([path[0], "NAME", *path[2:]] if path[0] in (*ENTRIES, *FIGURES) else path)
-    if key in GONE:
-        return ", because what used it is gone; remove it"
+    section, _, name = key.rpartition(".")
     if key in RENAMED:
         return f"; give {RENAMED[key]}"
-    section, _, name = key.rpartition(".")
+    if name in GONE.get(section, "").split():
+        return ", because what used it is gone; remove it"
     module = next((module for module, keys in CONSTANTS.items() if name in keys.get(section, "").split()), None)
     if module is None:
         return ""

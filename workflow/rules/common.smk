@@ -81,8 +81,8 @@ def figure_files(ending="pdf"):
     return [figure_file(figure, ending) for figure in config["figures"]]
 
 
-def caption_files(figures=config["figures"]):
-    return [result(f"captions/{figure}.rst") for figure in figures]
+def caption_files():
+    return [result(f"captions/{figure}.rst") for figure in config["figures"]]
 
 
 def section_in_report(wildcards):
