@@ -73,12 +73,10 @@ def changes_of(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def largest_changes(table: pd.DataFrame) -> pd.DataFrame:
-    """The change at the worst phase for each amplitude, order, share and measure."""
+    """The size of the change at the worst phase for each amplitude, order, share and measure."""
     changes = changes_of(table).dropna(subset="change")
-    worst = changes.groupby(["regime", "acceleration", "order", "share", "measure"]).change.agg(
-        lambda values: values.iloc[int(values.abs().argmax())]
-    )
-    return worst.reset_index()
+    sizes = changes.assign(change=changes.change.abs())
+    return sizes.groupby(["regime", "acceleration", "order", "share", "measure"]).change.max().reset_index()
 
 
 def harmless_shares(table: pd.DataFrame) -> pd.DataFrame:
@@ -86,8 +84,7 @@ def harmless_shares(table: pd.DataFrame) -> pd.DataFrame:
 
     It is interpolated linearly between shares of the table; NaN if even the largest one matters to no velocity.
     """
-    worst = largest_changes(table).assign(change=lambda rows: rows.change.abs())
-    worst = worst.groupby(["regime", "acceleration", "order", "share"]).change.max().reset_index()
+    worst = largest_changes(table).groupby(["regime", "acceleration", "order", "share"]).change.max().reset_index()
     rows = []
     for (regime, acceleration, order), own in worst.groupby(["regime", "acceleration", "order"]):
         shares, changes = np.array([0.0, *own.share]), np.array([0.0, *own.change])
@@ -111,7 +108,7 @@ def statement_of(table: pd.DataFrame) -> dict[str, float | bool]:
     whether chaos and riding keep their limits, `holds`
     """
     worst = largest_changes(table)
-    worst = worst[worst.share == STATEMENT["share"]].assign(change=lambda rows: rows.change.abs())
+    worst = worst[worst.share == STATEMENT["share"]]
     chaos = worst[(worst.regime == CHAOS) & (worst.measure == "velocity_50")].change.max()
     riding = worst[(worst.regime == RIDING) & (worst.measure == "velocity_05")]
     riding = riding.groupby("acceleration").change.max()
