@@ -1,6 +1,6 @@
 """The posterior of the parameters, given measured velocities.
 
-A velocity counts with its density under the velocities of parts with random initial conditions (see `predicted`), so
+A velocity counts with its density under the velocities of parts with random initial conditions (see `likelihood`), so
 that several coexisting velocities, and chaos, are information instead of noise.
 """
 
@@ -12,8 +12,8 @@ import numpy as np
 from calibration.credible_intervals import CONFIDENCE, open_ends, quantiles, summarize, with_errors
 from calibration.effort import MOST_SEARCHES, SEARCHES
 from calibration.importance_sampling import Sample, monte_carlo_error, pooled, sample
+from calibration.likelihood import Conditions, conditions_of, log_densities, velocities, widths
 from calibration.measurements import Measurement
-from calibration.predicted import Conditions, conditions_of, log_densities, velocities, widths
 from calibration.search_space import LOGARITHMIC, bounds_of, values_at
 from conveyor import UNITS
 from conveyor.elementary import exp, log

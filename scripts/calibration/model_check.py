@@ -20,8 +20,8 @@ from scipy.stats import rankdata
 
 from calibration.importance_sampling import LEAST, Sample
 from calibration.inference import Data, centre, draw, search
+from calibration.likelihood import deviations, log_densities, velocities, widths
 from calibration.measurements import Measurement
-from calibration.predicted import deviations, log_densities, velocities, widths
 from calibration.search_space import values_at
 from conveyor import UNITS
 from conveyor.elementary import log

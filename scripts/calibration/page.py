@@ -16,9 +16,9 @@ from calibration.inference import (
     RESOLVED,
     TOO_FEW,
 )
+from calibration.likelihood import OUTLIERS
 from calibration.measurements import DEFAULTS, first_comments
 from calibration.model_check import DECISIVE, SIGNIFICANCE, UNLIKELY
-from calibration.predicted import OUTLIERS
 from pipeline.templates import format_significant, render
 
 WORST = 8  # rows that are named

@@ -16,8 +16,8 @@ import numpy as np
 import pandas as pd
 
 from calibration.effort import sizes_of
+from calibration.likelihood import conditions_at, deviations, log_densities, velocities
 from calibration.measurements import CALIBRATED, DEFAULTS
-from calibration.predicted import conditions_at, deviations, log_densities, velocities
 from calibration.search_space import LOGARITHMIC
 from conveyor.elementary import exp, log
 from conveyor.linear_algebra import product

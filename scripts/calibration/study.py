@@ -18,8 +18,8 @@ from calibration import prediction
 from calibration.calibrate import calibrate
 from calibration.effort import HELD_OUT, sizes_of
 from calibration.inference import Data, data_of, search
+from calibration.likelihood import log_densities, velocities
 from calibration.measurements import parse
-from calibration.predicted import log_densities, velocities
 from calibration.synthetic import csv_text, measure, true_velocity
 from conveyor import RANGES, contact_of_groups
 from pipeline import grid

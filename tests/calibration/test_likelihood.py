@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
+from calibration.likelihood import OUTLIERS, conditions_of, log_densities, velocities, widths
 from calibration.measurements import Measurement
-from calibration.predicted import OUTLIERS, conditions_of, log_densities, velocities, widths
 from calibration.search_space import bounds_of, values_at
 from conveyor import Conveyor, Start, simulate
 

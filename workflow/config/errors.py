@@ -46,7 +46,7 @@ CONSTANTS = {
     "calibration/model_check": {"calibration": "decisive significance"},
     "calibration/paper_numbers": {"identification": "inside"},
     "calibration/paper_posterior": {"identification": "evidence search"},
-    "calibration/predicted": {"calibration": "outliers"},
+    "calibration/likelihood": {"calibration": "outliers"},
     "calibration/prediction": {"calibration": "beyond"},
     "calibration/settings": {"identification": "bounds ranges"},
     "calibration/study": {"": "calibration_study"},

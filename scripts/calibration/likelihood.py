@@ -1,4 +1,4 @@
-"""Velocities that a conveyor with some parameters can give, and the density of measured velocities under them.
+"""The likelihood of measured velocities: velocities that some parameters can give, and the density under them.
 
 Under one set of conditions (amplitude, times, known initial conditions), a number of parts with random initial
 conditions are followed. Their velocities are a sample of what a measurement can give. They may be one value, several
