@@ -18,12 +18,10 @@ def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
         raise JobError(f"The search has found too few samples for an overlay; {page}")
     if (parameters.status == NOT_DETERMINED).all():
         raise JobError(f"The measurements determine no parameter, so there is no overlay; {page}")
-    model = {row.parameter: f"{row.best:.{DIGITS - 1}e}" for row in parameters.itertuples()}
-    comments = {
-        row.parameter: f"{'1' if row.unit == '1' else row.unit}, {row.status}: {row.low:.3g} to {row.high:.3g}"
+    lines = [
+        f"  {row.parameter}: {row.best:.{DIGITS - 1}e}   # {row.unit}, {row.status}: {row.low:.3g} to {row.high:.3g}"
         for row in parameters.itertuples()
-    }
-    lines = [f"  {name}: {value}   # {comments[name]}" for name, value in model.items()]
+    ]
     head = (
         f"# Calibrated from {settings['measurements']}. Name this file behind the overlay that names the measurements."
     )

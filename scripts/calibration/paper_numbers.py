@@ -13,7 +13,7 @@ import pandas as pd
 from scipy.interpolate import CubicSpline, RegularGridInterpolator
 from scipy.sparse.linalg import spsolve
 
-from calibration.edges import HEIGHTS, SCAN, VERTICAL_OF, converged_states, find_edges
+from calibration.edges import HEIGHTS, SCAN, TOLERANCE, VERTICAL_OF, converged_states, find_edges
 from calibration.search_space import coordinates_of, values_at
 from conveyor import (
     LAST,
@@ -36,7 +36,7 @@ CONTACT = [list(PARAMETERS).index(name) for name in ("damping", "stiffness")]
 CONVERGED, EULER = "converged", "euler"
 MM, CM = 1e3, 1e2
 FINE = 1001  # heights at which the curve through the edges is evaluated
-DURATION, TOLERANCE = 1.0, 1e-6  # of the four trajectories (s), and of their contact steps (see figure scene_budget)
+DURATION = 1.0  # s, of the four trajectories
 # Distance (m/s²) from the ends of the interval of two states at which velocities are computed: one step of
 # sweeps.amplitudes.
 INSIDE = 0.25

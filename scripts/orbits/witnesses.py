@@ -25,7 +25,7 @@ TABLES = {
 
 STROBES = 2000  # samples of the 0-1 test
 SEED = 1  # of its frequencies
-SIGNIFICANT = 3.0  # standard errors by which a positive exponent must exceed zero
+SIGNIFICANT = 3.0  # standard errors from zero of an exponent whose sign is certain
 RESOLUTION = 1e-9  # m/s: strobes that vary by less are constant
 
 

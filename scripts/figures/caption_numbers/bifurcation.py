@@ -4,8 +4,7 @@ import pandas as pd
 
 from claims.about_states import find_runs, format_runs
 from orbits.branches import MOST_ORBITS
-
-SIGNIFICANT = 3.0  # standard errors from zero of an exponent whose sign is certain
+from orbits.witnesses import SIGNIFICANT
 
 
 def is_chaotic(spectrum: pd.DataFrame) -> pd.Series:

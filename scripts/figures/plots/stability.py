@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
+from accuracy.speed import PAPER_STEP
 from figures import style
 
 OUTCOMES = {"right": "#BFD9EA", "wrong state": "#F3D9A0", "energy grows": "#D55E00", "blow-up": "#444444"}
@@ -17,7 +18,7 @@ AXES = {
     "impact velocity": "impact velocity in m/s",
     "conveyor": "amplitude $\\hat{a}$ in m/s²",
 }
-PAPER_AMPLITUDE, PAPER_STEP = 40.0, 5e-7  # m/s², s (Sect. 3)
+PAPER_AMPLITUDE = 40.0  # m/s² (Sect. 3)
 PAPER = {"marker": "*", "color": "white", "markeredgecolor": "black", "markeredgewidth": 0.6, "markersize": 9.0}
 THEORY = {"color": "black", "linewidth": 1.0, "linestyle": ":"}
 TITLES = {
