@@ -36,9 +36,10 @@ from conveyor.linear_algebra import cholesky, product, solve
 # one that gives enough effective points counts; wider ones are only tried after more rounds. The second ones are those
 # of factors that are known without noise.
 NOISY, EXACT = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5), (0.0,)
-# Effective points, for each parameter, that the density of a proposal keeps, and the factor by which its power falls if
-# even the flattest density keeps fewer.
-LEAST, FLATTER = 6.0, 0.8
+# Effective points that the density of a proposal keeps, for each parameter and as a share of a round, and the factor by
+# which its power falls if even the flattest density keeps fewer. With fewer points, searches in a narrow valley all
+# miss its ends, so that the difference between them does not show it.
+LEAST, LEAST_SHARE, FLATTER = 6.0, 0.18, 0.8
 CENTRES = 500  # most points of a proposal; the time grows with their number
 SAME_VOLUME = 0.1  # change of the logarithm of the squared volume of a sample that counts as none
 TINY = 1e-300  # density whose logarithm is finite
@@ -222,12 +223,11 @@ def sample(
         raise ValueError("no point within the bounds is possible")
     even = math.log(first / points)
     mixture = np.full(first, even)  # logarithm of the sum of all proposals over the even one
+    least = max(LEAST * dimensions, LEAST_SHARE * points)
 
     def tempered(known: np.ndarray, width: float) -> np.ndarray:
         """Weights of the least inflated density that keeps enough effective points, smoothed in units of `known`."""
-        return flattened(
-            lambda place: smoothed(factors[place], x, known, width), len(factors), mixture, LEAST * dimensions
-        )
+        return flattened(lambda place: smoothed(factors[place], x, known, width), len(factors), mixture, least)
 
     known = tempered(np.full(first, 1.0 / first), 0.0)
     proposals: list[Kernels] = []

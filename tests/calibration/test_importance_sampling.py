@@ -35,6 +35,23 @@ def test_moments_and_evidence_of_a_narrow_valley():
     assert np.exp(found.log_evidence) == pytest.approx(volume / 1e3, rel=0.1)
 
 
+def test_searches_reach_the_narrow_end_of_a_bent_valley():
+    """The first parameter is normal with the standard deviation 0.4; the others follow it in ever wider valleys."""
+    bounds = np.array([[-1.5, -1.5, -1.5], [1.5, 1.5, 1.5]])
+
+    def bent(points):
+        x, y, z = points.T
+        width = 0.012 * np.exp(x)
+        across = ((y - 0.8 * x + 0.1 * x**2) / width) ** 2 + ((z - 0.8 * x) / 0.03) ** 2
+        return -0.5 * ((x / 0.4) ** 2 + across) - np.log(width)
+
+    options = OPTIONS | {"first": 1000, "points": 1000, "rounds": 5}
+    found = pooled([sample(one_factor(bent), bounds, **options | {"seed": [0, seed]}) for seed in range(12)])
+    for side in (-1.0, 1.0):
+        is_beyond = side * found.points[:, 0] > 0.4 * 1.96
+        assert found.weights[is_beyond].sum() == pytest.approx(0.025, abs=0.006)
+
+
 def test_both_of_two_distant_modes_are_found_with_their_shares():
     def modes(x):
         one, other = ((x - centre) ** 2 @ np.full(3, 50.0) for centre in (-3.0, 3.0))
