@@ -1,6 +1,5 @@
 """Settings of the stage calibration: parameters from measured velocities, or from the paper's numbers."""
 
-from functools import partial
 from typing import NotRequired
 
 from typing_extensions import TypedDict
@@ -70,8 +69,8 @@ IDENTIFIED = {
     "stiffness": [7.2, 180.0],
     "angle": [0.1396, 0.2793],  # rad: 8° to 16°, the printed 12° ± one third
 }
-IDENTIFICATION_TABLES = ("edges", "numbers", "fits", "intervals", "samples", "frictions")
 CALIBRATION_TABLES = ("parameters", "samples", "fit", "alternatives", "prediction", "next")
+POSTERIOR_TABLES = ("numbers", "fits", "intervals", "samples", "frictions")
 
 
 def calibration_settings(config: dict) -> dict:
@@ -88,7 +87,7 @@ def calibration_settings(config: dict) -> dict:
     return {**box_of(config), **own, "ranges": ranges, "static_friction": static_friction, "model": model}
 
 
-def calibration_study_settings(config: dict) -> dict:
+def study_table_settings(config: dict) -> dict:
     """The study calibrates with the settings of the config, without its conveyor and its measurements."""
     own = {name: value for name, value in calibration_settings(config).items() if name not in ("measurements", "model")}
     own["ranges"] = {name: config["calibration"]["ranges"][name] for name in ("friction", "damping", "stiffness")}
@@ -97,14 +96,14 @@ def calibration_study_settings(config: dict) -> dict:
     return {**box_of(config), "calibration": own, "model": model}
 
 
-def identification_settings(table: str, config: dict) -> dict:
-    """The parts of a config that a table of the section `identification` needs."""
-    own = {"ranges": IDENTIFIED, **config["identification"], "model": model_of(config, normal=table == "edges")}
-    if table == "edges":
-        return own
+def edges_settings(config: dict) -> dict:
+    return {"ranges": IDENTIFIED, **config["identification"], "model": model_of(config, normal=True)}
+
+
+def paper_posterior_settings(config: dict) -> dict:
     method = {name: config["solver"][name] for name in ("duration", "step", "settling", "mean_settling")}
     computed = {"numbers": paper_numbers(config), "measured": measured_quantities(config)}
-    return own | computed | {"euler": {**method, "method": "euler"}}
+    return {**edges_settings(config), "model": model_of(config), **computed, "euler": {**method, "method": "euler"}}
 
 
 def paper_numbers(config: dict) -> dict[str, dict]:
@@ -139,6 +138,7 @@ def measured_quantities(config: dict) -> dict:
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
-    "results/calibration_study": calibration_study_settings,
-    **{f"identification/{name}": partial(identification_settings, name) for name in IDENTIFICATION_TABLES},
+    "results/calibration_study": study_table_settings,
+    "identification/edges": edges_settings,
+    **dict.fromkeys((f"identification/{name}" for name in POSTERIOR_TABLES), paper_posterior_settings),
 }

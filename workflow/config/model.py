@@ -1,8 +1,6 @@
 """The config: the sections of all stages, which scripts/STAGE/settings.py declares, and what they share."""
 
-from typing import Annotated
-
-from pydantic import ConfigDict, Field, TypeAdapter
+from pydantic import ConfigDict, TypeAdapter
 from typing_extensions import TypedDict
 
 from scripts.pipeline.settings import (
@@ -13,6 +11,7 @@ from scripts.pipeline.settings import (
     Method,
     Step,
     Tolerance,
+    described,
     mapping,
     number,
     text,
@@ -47,8 +46,8 @@ Config = TypedDict(
             f"a folder name of at most {LONGEST_NAME} letters, digits, - and _, or nothing",
         ),
         "model": mapping("the conveyor and the part", MODEL_KEYS),
-        "solver": Annotated[Solver, Field(description="default settings of all trajectories")],
-        "sharing": Annotated[Sharing, Field(description="division of sweeps into jobs")],
+        "solver": described(Solver, "default settings of all trajectories"),
+        "sharing": described(Sharing, "division of sweeps into jobs"),
         **declared("SECTIONS"),
     },
 )

@@ -64,7 +64,6 @@ rule accuracy:
         name=one_of(COMPARED_TABLES),
     threads: THREADS
     resources:
-        mem_mb=2000,
         runtime=60,
     params:
         **stage("accuracy.{name}", "results/{name}"),
@@ -84,8 +83,6 @@ rule scene_budget:
         benchmark_file("accuracy/scene_budget")
     priority: 1
     threads: THREADS
-    resources:
-        mem_mb=2000,
     params:
         **stage("accuracy.scene_budget", "results/scene_budget"),
         entries=budgeted_entries(config),

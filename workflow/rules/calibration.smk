@@ -2,6 +2,7 @@
 # `calibration.measurements` has targets of measured velocities. The simulation study of the method, docs/calibration_study.md, and the
 # measurements of the example are made on request.
 from scripts.calibration.effort import study_sets
+from scripts.calibration.settings import POSTERIOR_TABLES
 
 CALIBRATION_FILES = [result("calibration.md"), figure_file("calibration")] if MEASURED["calibration"] else []
 # The data sets of the simulation study, numbered through.
@@ -143,13 +144,7 @@ rule identification_posterior:
     input:
         **tables_of("identification/edges"),
     output:
-        **tables_of(
-            "identification/numbers",
-            "identification/fits",
-            "identification/intervals",
-            "identification/samples",
-            "identification/frictions",
-        ),
+        **tables_of(*(f"identification/{name}" for name in POSTERIOR_TABLES)),
     log:
         log_file("identification/posterior"),
     benchmark:

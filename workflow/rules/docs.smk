@@ -24,9 +24,7 @@ PAGES = {
     "calibration_study": tables_of("results/calibration_study"),
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
     "checked": tables_of("results/theory", "results/map_check"),
-    "identification": tables_of(
-        *(f"identification/{name}" for name in ("numbers", "fits", "intervals", "samples", "frictions"))
-    ),
+    "identification": tables_of(*(f"identification/{name}" for name in POSTERIOR_TABLES)),
     "second_harmonic": tables_of("operating/second_harmonic"),
     "tables": {},
 }
