@@ -10,7 +10,8 @@ import math
 from typing import Any
 
 from scripts.conveyor import normal_gravity
-from scripts.pipeline.table_settings import without_tangential
+from scripts.pipeline.settings import MODEL_KEYS
+from scripts.pipeline.table_settings import INITIAL_CONDITION, without_tangential
 
 from .entries import ENTRIES, FIGURES, METHOD_SECTIONS, by_methods
 from .errors import ConfigError
@@ -19,10 +20,7 @@ from .model import MODEL
 from .schema import child, full_schema, schema_at, unit_of
 
 # Parameters of the conveyor and the part; the other parameters of the model are settings of a run.
-CONVEYOR = (
-    *("angle", "frequency", "stiffness", "damping", "friction", "mass", "exponent", "gravity"),
-    *("inclination", "phase_shift", "static_friction", "harmonics"),
-)
+CONVEYOR = tuple(name for name in MODEL_KEYS if name not in ("acceleration", "tension", *INITIAL_CONDITION))
 # Settings of figures that mark a number of the paper.
 MARKS = ("critical_acceleration", "critical_height", "first_positive", "two_states")
 # Of scaled amplitudes, heights and velocities, which stand on axes and in titles; of other numbers.

@@ -10,6 +10,7 @@ from bisect import bisect_right
 from typing import NamedTuple
 
 from scripts.pipeline.sizes import BLOCK, CHAOS_SHARED, CYCLES_SHARED, ORBITS_SHARED, ROW_GROUP
+from scripts.pipeline.table_settings import INITIAL_CONDITION
 
 from .entries import count_points, count_values, ends, values_of
 
@@ -25,7 +26,6 @@ START = {"alone": (1.5e-4, 6.0e-2), "chaos": (4.5e-5, 1.0e-4), "orbits": (1.0e-5
 CONVEYOR = {"alone": (0.0, 0.0), "chaos": (4.0e-3, 0.2), "orbits": (3.0e-2, 0.21)}
 # Memory (MB) of every job, per row in computation, and per row in writing.
 PROGRAM, ROW, WRITTEN_ROW = 280.0, 9.0e-4, 2.5e-4
-STARTS = ("psi0", "z0", "vz0")  # parameters of an initial condition; all other ones belong to the conveyor
 
 
 class Plan(NamedTuple):
@@ -60,14 +60,14 @@ def conveyors_of(axes: dict, rows: int) -> int:
     conveyors, stride = min(rows, 1), math.prod(map(count_values, axes.values()))
     for name, axis in axes.items():
         stride //= count_values(axis)
-        if name not in STARTS:
+        if name not in INITIAL_CONDITION:
             conveyors *= min(count_values(axis), math.ceil(rows / stride))
     return conveyors
 
 
 def known_of(entry: dict) -> str:
     """Which attractors of each conveyor are computed before its initial conditions are followed."""
-    starts = math.prod(count_values(axis) for name, axis in entry["axes"].items() if name in STARTS)
+    starts = math.prod(count_values(axis) for name, axis in entry["axes"].items() if name in INITIAL_CONDITION)
     if starts < CHAOS_SHARED or starts * entry["settling"] < CYCLES_SHARED:
         return "alone"
     return "chaos" if starts < ORBITS_SHARED else "orbits"
