@@ -39,13 +39,13 @@ def read_inputs(paths: dict[str, Any], expected: dict[str, list]) -> dict[str, A
 
 
 def contents(outputs: Any, results: Any) -> Iterator[tuple[str, str, Any]]:
-    """Name ("" for a single output or a list), path and content of each output, from what `make` returned."""
+    """Name ("" for an output without a name), path and content of each output, from what `make` returned."""
+    names = dict(outputs.items())
     if isinstance(results, list):
         yield from (("", path, content) for path, content in zip(outputs, results, strict=True))
     elif len(outputs) == 1:
-        yield "", outputs[0], results
+        yield next(iter(names), ""), outputs[0], results
     else:
-        names = dict(outputs.items())
         if set(names) != set(results):
             raise ValueError(f"the rule has outputs {', '.join(names)}, but its stage returns {', '.join(results)}")
         yield from ((name, path, results[name]) for name, path in names.items())

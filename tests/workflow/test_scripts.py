@@ -1,10 +1,14 @@
-"""Every script can be imported without Snakemake."""
+"""Every script can be imported without Snakemake; a table has the schema of its output."""
 
 import importlib
 import os
+from types import SimpleNamespace
 
+import make
 import pytest
 from project import ROOT
+
+from pipeline import fields
 
 SCRIPTS = ROOT / "scripts"
 MODULES = sorted(
@@ -21,3 +25,23 @@ def test_a_script_is_a_module(name):
     assert importlib.import_module(name)
     # Importing it does not change the settings of the process.
     assert dict(os.environ) == before
+
+
+class Outputs(list):
+    """One named output, as Snakemake gives it to a script."""
+
+    def __init__(self, name, path):
+        super().__init__([path])
+        self.name = name
+
+    def items(self):
+        return [(self.name, self[0])]
+
+
+def test_a_table_has_the_schema_of_its_output(tmp_path):
+    """The only table, too: otherwise each rule that reads it would refuse it."""
+    path = str(tmp_path / "other.parquet")
+    stage = SimpleNamespace(TABLES={"lengths": (fields.number("length", "m", "length"),)})
+    ((name, path, columns),) = make.contents(Outputs("other", path), {"length": [1.0]})
+    with pytest.raises(KeyError, match="other"):
+        make.write(stage, name, path, columns, {})
