@@ -49,12 +49,10 @@ def with_errors(values: np.ndarray, errors: np.ndarray, is_log: bool) -> dict[st
 
     is_log : whether the errors belong to the logarithms of the values
     """
-    best, low, high = values
-    best_error, low_error, high_error = values * errors if is_log else errors
-    return {
-        **{"best": best, "best_error": best_error},
-        **{"low": low, "low_error": low_error, "high": high, "high_error": high_error},
-    }
+    columns = {}
+    for name, value, error in zip(("best", "low", "high"), values, values * errors if is_log else errors, strict=True):
+        columns |= {name: value, f"{name}_error": error}
+    return columns
 
 
 def open_ends(values: np.ndarray, weights: np.ndarray, bounds: tuple[float, float]) -> tuple[bool, bool]:

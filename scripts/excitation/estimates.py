@@ -67,8 +67,6 @@ def step_variance(recording: Recording, fit: Fit) -> np.ndarray:
     phases = np.mod((recording.time - fit.middle) * fit.frequency, 1.0)
     distinct = len(np.unique(np.round(phases, 4) % 1.0))
     step = recording.quanta.max()
-    if step == 0.0:
-        return np.zeros(2)
     noise = np.maximum((fit.residual**2).mean(axis=1) - step**2 / 12.0, 0.0)
     distortion = 0.0123 * step**3 / np.abs(fit.amplitudes[:, 0]) + step**2 / (6.0 * distinct)
     return distortion * np.exp(-4.0 * math.pi**2 * noise / step**2)
