@@ -4,10 +4,10 @@ import importlib
 import os
 from types import SimpleNamespace
 
-import make
 import pytest
 from project import ROOT
 
+import make
 from pipeline import fields
 
 SCRIPTS = ROOT / "scripts"
