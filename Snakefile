@@ -1,12 +1,11 @@
 import os
-import sys
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 try:
-    from workflow.config import ConfigError, load_config
+    from workflow.config import ConfigError, announce, load_config
     from workflow.config.files import DEFAULT_FILES, ROOT, parse_texts
 except ModuleNotFoundError as error:
     if error.name.partition(".")[0] != "workflow":
@@ -36,7 +35,7 @@ except ConfigError as error:
 config = loaded.config
 PAPER, OWN_CONVEYOR = loaded.paper, loaded.own_conveyor
 if loaded.notice and workflow.is_main_process:
-    print(loaded.notice, file=sys.stderr)
+    announce(loaded.notice)
 
 
 report: "workflow/report/workflow.rst"

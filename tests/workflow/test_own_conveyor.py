@@ -8,7 +8,7 @@ import yaml
 from project import ROOT, Project, merged, read_config
 
 from conveyor.solver.model import Conveyor
-from workflow.config import ConfigError, canonical, load_config, problems
+from workflow.config import ConfigError, announce, canonical, load_config, problems
 from workflow.config.entries import NORMAL, by_methods
 from workflow.config.files import DEFAULT_FILES
 from workflow.config.own_conveyor import (
@@ -332,6 +332,12 @@ def test_the_notice_says_what_was_scaled_and_dropped(tmp_path, overlay, expected
     notice = load_config(DEFAULT_FILES, [file], {}).notice
     assert bool(notice) == bool(expected)
     assert [words for words in expected if words not in notice] == []
+
+
+def test_a_notice_is_printed_once(capsys):
+    for _ in range(2):
+        announce("own is a conveyor other than the paper's.")
+    assert capsys.readouterr().err.count("own is") == 1
 
 
 def test_lengths_of_tracks_and_parts_and_the_length_of_jobs_are_not_scaled(tmp_path):

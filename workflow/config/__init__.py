@@ -2,7 +2,9 @@
 
 import itertools
 import os
+import sys
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,7 +15,7 @@ from .files import changed_values, merge, read_all
 from .model import MODEL
 from .own_conveyor import describe_scaling, is_own_conveyor, names_conveyor, scale_config
 
-__all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
+__all__ = ["ConfigError", "Loaded", "announce", "canonical", "load_config", "problems"]
 
 
 class Loaded(NamedTuple):
@@ -89,3 +91,9 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
             whole["figures_on_request"].pop(section, None)
     loaded = with_tighter(by_methods(canonical(whole)))
     return Loaded(loaded, paper, own_conveyor, describe_scaling(paper, loaded) if own_conveyor else "")
+
+
+@cache
+def announce(notice: str) -> None:
+    """Print a notice once, although Snakemake reads the Snakefile of a module for each `use rule`."""
+    print(notice, file=sys.stderr)
