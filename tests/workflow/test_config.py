@@ -1,5 +1,6 @@
 """Errors of the config: early, readable, and with the names of the library."""
 
+import re
 import subprocess
 import sys
 import time
@@ -12,6 +13,7 @@ from conveyor.methods import fixed_step
 from conveyor.solver import model
 from workflow.config import problems
 from workflow.config.entries import by_methods, resolve
+from workflow.config.errors import CONSTANTS, fault_of_removed
 from workflow.config.schema import schema_at
 from workflow.config.tables import kind_of, references, settings_of
 
@@ -347,6 +349,14 @@ def test_an_error_names_key_and_remedy(overlay, message):
     lines = problems(merged(CONFIG, overlay))
     assert any(message in line for line in lines), lines
     assert all(line.isprintable() for line in lines)
+
+
+@pytest.mark.parametrize("module", CONSTANTS)
+def test_the_module_with_the_constants_of_removed_settings_exists(module):
+    section, keys = next(iter(CONSTANTS[module].items()))
+    key = ".".join(filter(None, [section, keys.split()[0]]))
+    (file,) = re.findall(r"constant in (\S+\.py)\)", fault_of_removed(key.split(".")))
+    assert (ROOT / file).is_file()
 
 
 def test_a_fault_of_the_model_is_reported_once_for_all_entries_that_inherit_it():

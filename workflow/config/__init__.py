@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .checks import problems
-from .entries import by_methods, with_tighter
+from .entries import MEASURED_FILES, by_methods, with_tighter
 from .errors import ConfigError, type_problems
 from .files import changed_values, merge, read_all
 from .model import MODEL
@@ -33,10 +33,6 @@ def canonical(config: dict) -> dict:
     The entries of a section and the axes of an entry keep their order, which has a meaning.
     """
     return MODEL.validate_python(config)
-
-
-# Files of measurements that an overlay may name: section and key.
-MEASURED_FILES = (("calibration", "measurements"), ("excitation", "measured"))
 
 
 def name_measurements(config: dict, files: Sequence[str | Path], contents: list[dict]) -> None:

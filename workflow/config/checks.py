@@ -14,6 +14,7 @@ from scripts.excitation.limits import STATEMENT
 from .entries import (
     ENTRIES,
     FIGURES,
+    MEASURED_FILES,
     METHOD_SECTIONS,
     by_methods,
     count_points,
@@ -49,6 +50,9 @@ def prefix(config: dict, defaults: dict) -> Iterator[str]:
             f"model.frequency = {config['model']['frequency']!r} Hz is another conveyor, for which axes and times must "
             "be scaled; give it a prefix, such as prefix: mine"
         )
+    for section, key in MEASURED_FILES:
+        if key in config[section] and not config["prefix"]:
+            yield f"{section}.{key} needs a folder for its results; give the config a prefix"
 
 
 def methods(config: dict, defaults: dict) -> Iterator[str]:
@@ -280,8 +284,6 @@ def calibration(config: dict, defaults: dict) -> Iterator[str]:
             f"model.static_friction = {static!r} leaves no friction to search, because calibration.ranges.friction "
             f"begins at {lowest!r}; begin lower, or take friction out of calibration.parameters"
         )
-    if not config["prefix"]:
-        yield "calibration.measurements needs a folder for its results; give the config a prefix"
     try:
         settings = {**own, "model": config["model"]}
         parse(read_text(path), path, settings, RANGES)
@@ -299,8 +301,6 @@ def excitation(config: dict, defaults: dict) -> Iterator[str]:
     # Only configs with such a file need NumPy and SciPy.
     from scripts.excitation.faults import RecordingError, checked, read_text
 
-    if not config["prefix"]:
-        yield "excitation.measured needs a folder for its results; give the config a prefix"
     try:
         checked(read_text(path), path, own, config["model"]["frequency"])
     except RecordingError as error:

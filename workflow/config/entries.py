@@ -13,6 +13,8 @@ SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
 METHOD_SECTIONS = ("sweeps", "estimates", "critical", "dimensions", "signals", "spectra")
 # Sections whose tables depend on a tolerance, directly or through another table.
 TIGHTENED = (*METHOD_SECTIONS, "regressions")
+# Files of measurements that an overlay may name: section and key.
+MEASURED_FILES = (("calibration", "measurements"), ("excitation", "measured"))
 # Ending of the name of a table with a tighter tolerance; the name of an entry cannot have a dot.
 TIGHTER = ".tighter"
 # Sections whose tables describe only the motion normal to the track.

@@ -5,8 +5,7 @@ import signal
 
 from scripts.figures.titles import title_of
 from scripts.pipeline.source_hash import source_hash
-from workflow.config import MEASURED_FILES
-from workflow.config.entries import ENTRIES, resolve
+from workflow.config.entries import ENTRIES, MEASURED_FILES, resolve
 from workflow.config.files import DEFAULT_FILES, ROOT
 from workflow.config.sharing import THREADS, plan
 from workflow.config.tables import kind_of, references_of, settings_of
