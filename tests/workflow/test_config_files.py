@@ -251,7 +251,7 @@ def test_a_run_of_another_conveyor_says_first_what_was_scaled_and_dropped(projec
     file = tmp_path / "fast.yaml"
     file.write_text("prefix: fast\nmodel: {frequency: 100.0}\n")
     run = project.called("--dry-run", "figures/fast/operating.pdf", "--configfile", str(file))
-    (notice,) = [line for line in run.stdout.splitlines() if line.startswith("fast is another conveyor")]
+    (notice,) = [line for line in run.stdout.splitlines() if line.startswith("fast is a conveyor other than")]
     assert "heights × 0.25, velocities × 0.5, times × 0.5" in notice
     assert "Dropped: the paper's claims" in notice and "differences of parts" in notice
     assert run.stdout.index(notice) < run.stdout.index("Building DAG")
