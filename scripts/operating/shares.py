@@ -108,13 +108,13 @@ def velocities(
     """
     n, period = len(parameters), labels.period
     # A motion without a period is not more settled in later cycles.
-    settled = np.where(period > 0, labels.cycles, np.minimum(labels.cycles, settings["cycles"]))
+    settled = np.where(period > 0, labels.cycles, np.minimum(labels.cycles, CYCLES))
     velocity, status = np.full(n, np.nan), np.full(n, regimes.UNSETTLED, dtype=object)
     peaks = np.full((n, 2), np.nan)
     plate = regimes.plate_speed(parameters)
     # A mean over whole periods; the last quarter of a run is what a mean is taken over.
     step = np.maximum(period, 1)
-    quarter = np.maximum(np.maximum(settings["cycles"], np.ceil((settled + FORGOTTEN) / 3.0)), step)
+    quarter = np.maximum(np.maximum(CYCLES, np.ceil((settled + FORGOTTEN) / 3.0)), step)
     steep = regimes.steepness(parameters)
     status[steep == 2], open_ = regimes.SLIDES_AWAY, np.flatnonzero(steep < 2)
     left = mean_settling(settings) * WHOLE_MAP
@@ -162,14 +162,24 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
     return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters["frequency"]
 
 
-def shares_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
-    """The table for some amplitudes (m/s²), ascending, shape (m,)."""
+def shares_at(
+    amplitudes: np.ndarray,
+    settings: dict,
+    *,
+    followed: int = FOLLOWED,
+    threads: int = 1,
+    progress: str | None = None,
+) -> pd.DataFrame:
+    """The table for some amplitudes (m/s²), ascending, shape (m,).
+
+    followed : initial conditions per attractor from which its mean velocity is computed
+    """
     starts, parameters = settings["starts"], population(amplitudes, settings, IDENTICAL)
     labels = label_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
     number = groups(labels, np.arange(len(parameters)) // starts)
     _, first, count = np.unique(number, return_index=True, return_counts=True)
     # The trajectories of each motion that have settled first are followed further.
-    most = np.where(labels.state[first] == "undecided", 0, settings["followed"])
+    most = np.where(labels.state[first] == "undecided", 0, followed)
     order = np.lexsort((labels.cycles, number))
     rank = np.arange(len(order)) - np.repeat(np.cumsum(count) - count, count)
     chosen = order[rank < np.repeat(most, count)]
@@ -213,7 +223,6 @@ def shares_at(amplitudes: np.ndarray, settings: dict, *, threads: int = 1, progr
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
     """The tables of shares and of regimes for the settings of the config."""
-    settings = settings | {"followed": FOLLOWED, "cycles": CYCLES}
     amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
     table = shares_at(amplitudes, settings, threads=threads, progress=progress)
     while True:

@@ -38,7 +38,6 @@ def settings_of_conveyor(settings: dict, model: dict) -> dict:
 
 def make(examples: list[str], settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
     """The shares at each throw number, for the conveyors of the config and of the `examples` (YAML texts)."""
-    settings = settings | {"followed": FOLLOWED, "cycles": shares.CYCLES}
     conveyors = {"paper": {}} | {one["prefix"]: one["model"] for one in map(yaml.safe_load, examples)}
     throws = np.linspace(*(settings["throw_number"][key] for key in ("start", "stop", "num")))
     tables = []
@@ -46,7 +45,7 @@ def make(examples: list[str], settings: dict, *, threads: int = 1, progress: str
         own = settings_of_conveyor(settings, model)
         amplitudes = throws / throw_number(1.0, **own["model"])
         label = progress and f"{progress}: {name}"
-        table = shares.shares_at(amplitudes, own, threads=threads, progress=label)
+        table = shares.shares_at(amplitudes, own, followed=FOLLOWED, threads=threads, progress=label)
         textbook = throw_velocity(table.acceleration, **own["model"])
         tables.append(table.assign(conveyor=name, textbook=textbook))
     return pd.concat(tables, ignore_index=True)

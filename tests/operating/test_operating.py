@@ -21,8 +21,6 @@ BOX = {
     "starts": 64,
     "settling": 2000,
     "mean_settling": 375,
-    "followed": 2,
-    "cycles": shares.CYCLES,
     "model": {},
 }
 
@@ -69,7 +67,7 @@ def test_motions_differ_by_conveyor_state_period_and_flight():
 @pytest.fixture(scope="module")
 def table():
     """Shares at two amplitudes with one and with two motions."""
-    return shares.shares_at(np.array([22.0, 40.0]), BOX)
+    return shares.shares_at(np.array([22.0, 40.0]), BOX, followed=2)
 
 
 def test_labels_agree_with_sweeps(table):
@@ -94,10 +92,12 @@ def test_velocities_are_means_over_whole_cycles(table):
     assert (table.motion == table.groupby("acceleration").mean_velocity.rank(ascending=False)).all()
 
 
-def velocity(conveyor: Conveyor, start: Start, period: int, **settings) -> tuple[float, str]:
+def velocity(conveyor: Conveyor, start: Start, period: int, cycles: int = shares.CYCLES) -> tuple[float, str]:
     """The mean velocity of one initial condition that has settled vertically after twenty cycles, and its status."""
     labels = Columns({"period": np.array([period]), "cycles": np.array([20])})
-    (found,), _, (status,) = shares.velocities(parameter_table(conveyor, start)[None], labels, {**BOX, **settings})
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(shares, "CYCLES", cycles)
+        (found,), _, (status,) = shares.velocities(parameter_table(conveyor, start)[None], labels, BOX)
     return found, status
 
 
@@ -185,7 +185,8 @@ def test_velocities_take_as_many_cycles_as_a_map(monkeypatch):
     """The velocities of the slowest motions are not known then."""
     rows = np.stack([parameter_table(Conveyor(friction=friction), Start(3e-4)) for friction in (0.15, 0.1, 1e-3)])
     found = Columns({"period": np.ones(3, np.int64), "cycles": np.array([20, 20, 3000])})
-    settings, counted = {**BOX, "cycles": 20, "mean_settling": 100}, []
+    settings, counted = {**BOX, "mean_settling": 100}, []
+    monkeypatch.setattr(shares, "CYCLES", 20)
     last_quarters = shares.last_quarters
 
     def count(parameters, durations, *rest):
@@ -236,7 +237,7 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
     monkeypatch.setattr(shares, "label_starts", motions_found)
     velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)
     monkeypatch.setattr(shares, "velocities", lambda *_, **__: velocities)
-    row = shares.shares_at(np.array([40.0]), BOX).iloc[0]
+    row = shares.shares_at(np.array([40.0]), BOX, followed=2).iloc[0]
     assert (row.mean_velocity, row.velocity_stderr, row.status) == pytest.approx(wanted, nan_ok=True)
     assert row.starts == BOX["starts"]
     peaks = (0.2, 2.0) if row.status == "ok" else (np.nan, np.nan)
@@ -245,7 +246,8 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
 
 def test_the_standard_error_agrees_with_repeated_draws():
     drawn = [
-        shares.shares_at(np.array([40.0]), {**BOX, "seed": seed}).set_index("state").loc["first"] for seed in range(30)
+        shares.shares_at(np.array([40.0]), {**BOX, "seed": seed}, followed=2).set_index("state").loc["first"]
+        for seed in range(30)
     ]
     share = np.array([row.share for row in drawn])
     # A standard deviation from thirty draws is known to an eighth.
@@ -265,7 +267,7 @@ def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
         "stiffness": mass * gravity / length**paper.exponent * paper.stiffness,
     }
     box = {"height": [length * end for end in BOX["height"]], "vz0": [velocity * end for end in BOX["vz0"]]}
-    other = shares.shares_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model})
+    other = shares.shares_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model}, followed=2)
     for name in ("state", "period", "starts", "share", "stderr", "motion"):
         assert (other[name] == table[name]).all(), name
     assert np.allclose(other.vertical, table.vertical, rtol=1e-12)
