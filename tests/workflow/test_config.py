@@ -55,6 +55,7 @@ WRONG = [
         "stability.step is no setting any more; remove it (its value is a constant in",
     ),
     ({"stability": {"chatter_steps": [1e-6]}}, "stability.chatter_steps is no setting any more"),
+    ({"regressions": {"height": {"seed": 2}}}, "regressions.height.seed is no setting any more; remove it (its value"),
     ({"companion": {"cycles": 500}}, "companion.cycles is no setting any more, because what used it is gone"),
     ({"scaling": {"points": [1000]}}, "scaling is no setting any more, because what used it is gone"),
     ({"model": {"mass": -0.1}}, "model.mass = -0.1 should be at least 1e-12 (kg)"),

@@ -53,6 +53,7 @@ CONSTANTS = {
     "dimensions/portraits": {"dimensions.NAME": "interval octaves theiler largest_error"},
     "docs/companion/build": {"companion": "opening separation"},
     "excitation/limits": {"clean_drive": "matters statement"},
+    "fit/regressions": {"regressions.NAME": "seed evaluations"},
     "figures/plots/bifurcation": {"figures.NAME.settings": "lowest_exponent"},
     "figures/plots/fig05": {"figures.NAME.settings": "begin"},
     "figures/plots/fig06": {"figures.NAME.settings": "highest"},
