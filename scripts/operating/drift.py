@@ -12,7 +12,6 @@ import pandas as pd
 from conveyor import RANDOM_WALK_STATUS, random_walk, relative_spread, sample_runs
 from operating.parts import IDENTICAL, population, starts_of_box
 from operating.regimes import CHAOS, SEVERAL
-from operating.shares import FORGOTTEN
 from operating.transit import PROBABILITIES, follow, quantiles, spread_of, spread_stderr
 from pipeline import fields, grid
 
@@ -20,6 +19,7 @@ from pipeline import fields, grid
 AMPLITUDES = 8  # at most, among those at which all initial conditions end in chaos
 RUNS = 64  # initial conditions per amplitude
 CYCLES = 4096  # excitation cycles of each run
+FORGOTTEN = 200  # excitation cycles before the first sample, after which the transient has decayed
 RUN_FAILED = "a run failed"
 LENGTHS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of tracks, in units of transit.length: shorter and longer than the user's
 OF_EACH_REGIME = 2  # amplitudes in the table of track lengths
