@@ -18,11 +18,6 @@ from ..pipeline.settings import (
 )
 
 
-class Critical(Followed):
-    duration: NotRequired[Duration]
-    scan: axis(HeightNumber, "initial heights that are scanned for changes", least=2, check=check_ascending)
-
-
 class Signal(Followed):
     duration: NotRequired[Duration]
     times: span(number("time", "s", ge=0, le=1e6), "times of the samples")
@@ -37,9 +32,14 @@ class Impacts(TypedDict):
     model: NotRequired[Model]
 
 
+class Critical(Followed):
+    duration: NotRequired[Duration]
+    scan: axis(HeightNumber, "initial heights that are scanned for changes", least=2, check=check_ascending)
+
+
 SECTIONS = {
-    "critical": entries(Critical, "initial heights at which the state of motion changes"),
     "signals": entries(Signal, "motion of part and plate at given times"),
     "spectra": entries(Spectrum, "amplitude spectra of the velocities"),
     "impacts": entries(Impacts, "first impacts of parts that start in the air"),
+    "critical": entries(Critical, "initial heights at which the state of motion changes"),
 }

@@ -117,8 +117,8 @@ SECTIONS = {
     "transit": described(Transit, "velocities of parts along a track over the amplitude"),
     "drift": mapping("drift and diffusion in chaos, and the spread over the track's length", {"effort": Effort}),
     "advice": described(Advice, "advice on where to run the conveyor"),
-    "track": described(Track, "velocity over inclination and phase shift"),
     "throws": described(Throws, "comparison with the textbook theory of throw conveyors"),
+    "track": described(Track, "velocity over inclination and phase shift"),
     "drive": described(Drive, "search for the settings of the drive"),
 }
 
