@@ -109,9 +109,8 @@ def test_times_belong_to_the_same_runs(compared):
     run = list(precision.Method._fields)
     pd.testing.assert_frame_equal(times[run], compared[run])
     solver = times.method == "event"
-    # A fast run is repeated until its turn ends; a slow one runs once.
+    # A fast run is repeated until its turn ends.
     assert times.repeats[solver].min() > 2
-    assert (times.repeats[times.seconds > 0.02] == 1).all()
     others = ~solver & (compared.outcome != "not installed")
     assert 0.0 < times.seconds[solver].max() < times.seconds[others].min()
 
