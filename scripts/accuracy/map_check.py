@@ -45,9 +45,9 @@ TABLES = {
 
 BOUNDARY = 0.5  # share of the points that lie next to a point with another label
 SEED = 1
-CYCLES = (
-    20_000  # without a period, after which a motion is chaos if its exponent is positive; as many as solver.settling
-)
+# Excitation cycles without a period, after which a motion is chaos if its exponent is positive: as many as the default
+# of solver.settling.
+CYCLES = 20_000
 TOLERANCE = 1e-13
 CLOSE = 1e-9  # largest difference of a repeated state, in units of the plate's motion
 REPEATS = 64  # excitation cycles in a row that must repeat in a periodic motion

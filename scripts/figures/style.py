@@ -1,5 +1,6 @@
 """Style of all figures: sizes, fonts, colours, labels, and the function that saves them."""
 
+import string
 from collections.abc import Iterable
 from contextlib import AbstractContextManager
 
@@ -163,7 +164,7 @@ def limit_x(axes: Axes, places: Iterable[float]) -> None:
 
 def letter(*panels: Axes, **options) -> None:
     """Write a, b, c, … above the left ends of panels; options of `Axes.set_title`."""
-    for axes, name in zip(panels, "abcdef", strict=False):
+    for axes, name in zip(panels, string.ascii_lowercase, strict=False):
         axes.set_title(name, loc="left", weight="bold", **options)
 
 

@@ -81,7 +81,8 @@ def fastest(peak: float, kind: str, seed: int, settings: dict, count: Callable[[
     count : called after each generation
     """
     bounds = np.array(bounds_of(kind, settings["bounds"]))
-    velocities, rng = [], np.random.default_rng(seed)  # the largest velocity up to each generation
+    velocities = []  # the largest one up to each generation
+    rng = np.random.default_rng(seed)
 
     def evaluate_points(points: np.ndarray) -> np.ndarray:
         return costs(evaluate_few(designs_at(peak, points.T), settings), settings)

@@ -111,7 +111,7 @@ def test_chaos_before_the_accumulation_is_mentioned(monkeypatch):
     assert without.endswith("attractors. No cascade of period doublings was found.")
     monkeypatch.setattr(bifurcation, "MOST_ORBITS", 2)
     ended = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **others)
-    assert "The search ended after 2 orbits; narrower ``orbits.limits``" in ended
+    assert "The search ended after 2 orbits; within narrower ``orbits.limits``" in ended
     assert "None of these orbits folds" not in ended
     straight = others | {"bifurcations": pd.DataFrame({"kind": ["grazing"]})}
     text = caption("bifurcation", {"longest_period": 2}, cascade=cascade[:1], **straight)
