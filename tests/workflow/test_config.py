@@ -1,6 +1,5 @@
 """Errors of the config: early, readable, and with the names of the library."""
 
-import re
 import subprocess
 import sys
 import time
@@ -13,7 +12,6 @@ from conveyor.methods import fixed_step
 from conveyor.solver import model
 from workflow.config import problems
 from workflow.config.entries import by_methods, resolve
-from workflow.config.errors import CONSTANTS, fault_of_removed
 from workflow.config.schema import schema_at
 from workflow.config.tables import kind_of, references, settings_of
 
@@ -23,41 +21,11 @@ MINE = {"axes": {"acceleration": {"start": 30, "stop": 40, "num": 3}, "z0": [0.0
 # An overlay, and a part of the expected message.
 WRONG = [
     ({"companion": {"maps": ["none"]}}, "companion.maps[0] = 'none' is unknown"),
-    (
-        {"companion": {"opening": "third"}},
-        "companion.opening is no setting any more; remove it (its value is a constant",
-    ),
     ({"companion": {"presets": {"mine": {"mas": 1.0}}}}, "companion.presets.mine.mas is an unknown key"),
-    (
-        {"figures": {"fig03": {"title": "Mine"}}},
-        "figures.fig03.title is no setting any more; remove it (the title is in",
-    ),
-    ({"identification": {"search": {"points": 100}}}, "identification.search is no setting any more; remove it"),
-    *(
-        ({"identification": {name: {}}}, f"identification.{name} is no setting any more")
-        for name in ("ranges", "bounds")
-    ),
     ({"calibration": {"ranges": {"angle": [0.1, 16]}}}, "16° are 0.2793 rad"),
     ({"calibration": {"ranges": {"friction": [0.4, 0.1]}}}, "is reversed"),
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
-    ({"precision": {"tolerances": [1.0e-3]}}, "precision.tolerances is no setting any more; remove it (its value is a"),
-    (
-        {"theory": {"speed": [1.0]}},
-        "theory is no setting any more; remove it (its value is a constant in scripts/accuracy",
-    ),
-    (
-        {"scene_budget": {"points": {"sweeps": 1}}},
-        "scene_budget.points is no setting any more; give scene_budget.effort",
-    ),
-    (
-        {"stability": {"step": {"num": 9}}},
-        "stability.step is no setting any more; remove it (its value is a constant in",
-    ),
-    ({"stability": {"chatter_steps": [1e-6]}}, "stability.chatter_steps is no setting any more"),
-    ({"regressions": {"height": {"seed": 2}}}, "regressions.height.seed is no setting any more; remove it (its value"),
-    ({"companion": {"cycles": 500}}, "companion.cycles is no setting any more, because what used it is gone"),
-    ({"scaling": {"points": [1000]}}, "scaling is no setting any more, because what used it is gone"),
     ({"model": {"mass": -0.1}}, "model.mass = -0.1 should be at least 1e-12 (kg)"),
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),
@@ -135,10 +103,6 @@ WRONG = [
         "figures.fig09.settings.longest_period is an unknown key",
     ),
     (
-        {"figures": {"fig05": {"settings": {"begin": 1.0}}}},
-        "figures.fig05.settings.begin is no setting any more; remove it (its value is a constant in scripts/",
-    ),
-    (
         {"scene_budget": {"reasons": {"critical/egde": "none"}}},
         "scene_budget.reasons.critical/egde = 'critical/egde' is unknown; did you mean critical/edge?",
     ),
@@ -169,15 +133,6 @@ WRONG = [
         {"dimensions": {"portrait": {"method": "euler"}}},
         "dimensions.portrait.estimator = 'box' follows the settled",
     ),
-    (
-        {"dimensions": {"portrait": {"theiler": 20}}},
-        "dimensions.portrait.theiler is no setting any more; remove it (its value is a constant in scripts/dimensions/",
-    ),
-    (
-        {"dimensions": {"portrait": {"begin": 9.0}}},
-        "dimensions.portrait.begin is no setting any more; give solver.",
-    ),
-    ({"lyapunov": {"tolerance": 1e-9}}, "(its value is a constant in scripts/orbits/settings.py)"),
     ({"critical": {"edge": {"scan": {"start": 1.0e-3}}}}, "'stop': 0.0005} is reversed: start is above stop"),
     (
         {"critical": {"edge": {"scan": [0.0, 2.0e-4, 1.0e-4]}}},
@@ -192,10 +147,6 @@ WRONG = [
     (
         {"signals": {"states": {"times": {"stop": 2.0}}}},
         "signals.states.times.stop = 2.0 s is beyond",
-    ),
-    (
-        {"benchmark": {"cases": {}}},
-        "benchmark.cases is no setting any more; remove it (its value is a constant in scripts",
     ),
     (
         {"transit": {"longest": 0.01}},
@@ -274,10 +225,6 @@ WRONG = [
         {"orbits": {"model": {"static_friction": 0.1}}},
         "orbits.model has static_friction = 0.1 below friction = 0.15",
     ),
-    (
-        {"sharing": {"seconds": {"cycle": 1.0}}},
-        "sharing.seconds is no setting any more; remove it",
-    ),
     ({"calibration": {"effort": 0}}, "calibration.effort = 0 should be at least 0.05"),
     (
         {
@@ -288,21 +235,6 @@ WRONG = [
         "model.static_friction = 0.03 leaves no friction to search, because calibration.ranges.friction begins at 0.04",
     ),
     (
-        {"sharing": {"most_jobs": 9}},
-        "sharing.most_jobs is no setting any more; remove it (its value is a constant in workflow/config/sharing.py)",
-    ),
-    (
-        {"orbits": {"most": 9}},
-        "orbits.most is no setting any more; remove it (its value is a constant in scripts/orbits/",
-    ),
-    ({"drift": {"runs": 9}}, "drift.runs is no setting any more; give drift.effort, a factor of all its numbers"),
-    ({"settling_times": {"starts": 9}}, "settling_times.starts is no setting any more; give settling_times.effort"),
-    (
-        {"sensitivity": {"curves": {"points": 20}}},
-        "sensitivity.curves is no setting any more; give sensitivity.factors",
-    ),
-    ({"clean_drive": {"statement": {"share": 0.1}}}, "clean_drive.statement is no setting any more; remove it"),
-    (
         {"clean_drive": {"shares": [0.02, 0.1]}},
         "clean_drive.shares = [0.02, 0.1] lacks 0.05, the share of the statement on chaos; add it",
     ),
@@ -310,10 +242,6 @@ WRONG = [
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
     ({"drive": {"velocity": "2 cm/s"}}, "drive.velocity = '2 cm/s' should be a valid number (m/s)"),
-    (
-        {"drive": {"settled": 0.1}},
-        "drive.settled is no setting any more; remove it (its value is a constant in scripts/",
-    ),
     ({"model": {"inclination": 3.0}}, "model.inclination = 3.0 should be at most 1.4 (rad); angles are in radians"),
     ({"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}}, "has no scripts/figures/plots/fig98.rst"),
     # crashed the check of earlier versions, or ran without end
@@ -350,14 +278,6 @@ def test_an_error_names_key_and_remedy(overlay, message):
     lines = problems(merged(CONFIG, overlay))
     assert any(message in line for line in lines), lines
     assert all(line.isprintable() for line in lines)
-
-
-@pytest.mark.parametrize("module", CONSTANTS)
-def test_the_module_with_the_constants_of_removed_settings_exists(module):
-    section, keys = next(iter(CONSTANTS[module].items()))
-    key = ".".join(filter(None, [section, keys.split()[0]]))
-    (file,) = re.findall(r"constant in (\S+\.py)\)", fault_of_removed(key.split(".")))
-    assert (ROOT / file).is_file()
 
 
 def test_a_fault_of_the_model_is_reported_once_for_all_entries_that_inherit_it():

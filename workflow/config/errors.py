@@ -11,7 +11,6 @@ from typing import Any
 import yaml
 from pydantic import ValidationError
 
-from .entries import ENTRIES, FIGURES
 from .model import MODEL
 from .schema import options_of, schema_at, unit_of
 
@@ -23,78 +22,6 @@ SHORT.maxstring = SHORT.maxother = 60
 format_value = SHORT.repr
 # A number that YAML 1.1 reads as text, such as 1e-4.
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
-# Settings of earlier versions that nobody needed to change. The keys of each section, by the module of scripts/ in
-# which they are constants.
-CONSTANTS = {
-    "accuracy/benchmark": {"benchmark": "cases"},
-    "accuracy/map_check": {"map_check": "boundary seed cycles tolerance close repeats significant accepted"},
-    "accuracy/precision": {"precision": "sample_interval tolerances steps peers seconds max_evaluations"},
-    "accuracy/reference_check": {"precision": "reference"},
-    "accuracy/scene_budget": {"scene_budget": "tolerances pixels line"},
-    "accuracy/scenes": {"precision": "scenes", "": "published_scenes"},
-    "accuracy/settling_times": {"settling_times": "acceleration z0 seed cycles"},
-    "accuracy/speed": {"figures.NAME.settings": "paper_step equal_error"},
-    "accuracy/stability": {"stability": "contact conveyor damping impact_velocity methods step stiffness"},
-    "accuracy/stability_estimates": {"": "stability_estimates"},
-    "accuracy/theory": {"": "theory"},
-    "calibration/edges": {"identification": "contacts heights edges"},
-    "calibration/effort": {
-        "calibration": "parts first points rounds enough effective "
-        "samples checked checked_parts replicates amplitudes predicted predicted_parts",
-    },
-    "calibration/inference": {"calibration": "confidence"},
-    "calibration/model_check": {"calibration": "decisive significance"},
-    "calibration/paper_numbers": {"identification": "inside"},
-    "calibration/paper_posterior": {"identification": "evidence search"},
-    "calibration/likelihood": {"calibration": "outliers"},
-    "calibration/prediction": {"calibration": "beyond"},
-    "calibration/settings": {"identification": "bounds ranges"},
-    "calibration/study": {"": "calibration_study"},
-    "dimensions/portraits": {"dimensions.NAME": "interval octaves theiler largest_error"},
-    "docs/companion/build": {"companion": "opening separation"},
-    "excitation/limits": {"clean_drive": "matters statement"},
-    "fit/regressions": {"regressions.NAME": "seed evaluations"},
-    "figures/plots/bifurcation": {"figures.NAME.settings": "lowest_exponent"},
-    "figures/plots/fig05": {"figures.NAME.settings": "begin"},
-    "figures/plots/fig06": {"figures.NAME.settings": "highest"},
-    "figures/plots/fig23": {"figures.NAME.settings": "transient"},
-    "figures/plots/stability": {"stability": "paper_step"},
-    "motion/critical": {"critical.NAME": "resolution"},
-    "motion/spectra": {"spectra.NAME": "last samples_per_cycle"},
-    "operating/drift": {"drift": "forgotten lengths"},
-    "operating/drive": {"drive": "drawn settled seeds checked recommended"},
-    "operating/regimes": {"operating": "same_velocity"},
-    "operating/shares": {"operating": "followed cycles"},
-    "operating/throws": {"throws": "followed"},
-    "operating/track": {"track": "cycles"},
-    "orbits/branches": {"orbits": "most"},
-    "orbits/certified": {
-        "certificates": "longest_period bits order tolerance closeness half_width half_arc",
-        "certificates.chaos": "size ratio longest bits order tolerance",
-    },
-    "orbits/estimates": {"estimates.NAME": "samples"},
-    "orbits/seeds": {"orbits": "cycles"},
-    "orbits/settings": {"": "lyapunov", "certificates": "also"},
-    "orbits/witnesses": {"": "witnesses"},
-    "sensitivity/derivatives": {"sensitivity": "rest"},
-    "sensitivity/selection": {"sensitivity": "longest_period most"},
-    "workflow/config/sharing": {"sharing": "seconds megabytes most_jobs"},
-}
-# Keys of each section that nothing uses any more.
-GONE = {
-    "": "precision_estimates rigid_part scaling",
-    "companion": "tolerance cycles",
-    "stability": "hard rivals stick chatter_steps",
-}
-# Settings with a new name.
-RENAMED = {
-    "settling_times.starts": "settling_times.effort, a factor of the number of initial conditions",
-    **{f"drift.{key}": "drift.effort, a factor of all its numbers" for key in ("amplitudes", "runs", "cycles")},
-    **{f"sensitivity.{key}": "sensitivity.effort, a factor of both numbers" for key in ("doublings", "heights")},
-    "sensitivity.curves": "sensitivity.factors, the ranges of the parameters, and sensitivity.effort",
-    "scene_budget.points": "scene_budget.effort, a factor of all numbers of points",
-    "dimensions.NAME.begin": "solver.settling, in excitation cycles",
-}
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
@@ -121,22 +48,6 @@ def format_key(path: Iterable[str | int]) -> str:
     return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in names).lstrip(".") or "config"
 
 
-def fault_of_removed(path: list[str | int]) -> str:
-    """What to do about a setting of an earlier version; empty for keys that never were settings."""
-    # Each entry and each figure has its own name.
-    key = format_key([path[0], "NAME", *path[2:]] if path[0] in (*ENTRIES, *FIGURES) else path)
-    section, _, name = key.rpartition(".")
-    if key in RENAMED:
-        return f"; give {RENAMED[key]}"
-    if name in GONE.get(section, "").split():
-        return ", because what used it is gone; remove it"
-    module = next((module for module, keys in CONSTANTS.items() if name in keys.get(section, "").split()), None)
-    if module is None:
-        return ""
-    file = module if module.startswith("workflow/") else f"scripts/{module}"
-    return f"; remove it (its value is a constant in {file}.py)"
-
-
 def explain(error: dict) -> str:
     """One line for an error of pydantic."""
     # Without the names of forms ("(span)"), and without "[key]" behind a name of the user's choice.
@@ -155,10 +66,6 @@ def explain(error: dict) -> str:
         return f"{above} has the unknown name {format_value(value)}; {remedy}"
     if kind == "missing":
         return f"{key} is missing"
-    if kind == "extra_forbidden" and (fault := fault_of_removed(path)):
-        return f"{key} is no setting any more{fault}"
-    if kind == "extra_forbidden" and path[0] in FIGURES and path[2:] == ["title"]:
-        return f"{key} is no setting any more; remove it (the title is in scripts/figures/plots/{path[1]}.rst)"
     if kind == "extra_forbidden":
         known = [name for option in options_of(schema_at(path[:-1])) for name in option.get("properties", {})]
         return f"{key} is an unknown key; {suggest_name(path[-1], known)}"
