@@ -11,6 +11,6 @@ if __name__ == "__main__":
     os.environ["NUMBA_DISABLE_JIT"] = "1"
     with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
         given = snakemake.input
-        extra = {"figures": given.pdf, "": [given.article, given.companion], "benchmark": given.scenes}
+        extra = {"figures": given.pdf, "": [given.article, given.companion]}
         site.gather(folder, [*given.pages, *given.examples], given.style, given.png, extra)
         site.build(folder, snakemake.output[0])

@@ -5,5 +5,3 @@ SCENES = {
     "riding": {"acceleration": 30.0, "z0": 0.0},
     "bouncing": {"acceleration": 47.0, "z0": 0.0},
 }
-# A further scene for other solvers: chaos, with a duration (s) that is short enough for solvers to agree.
-CHAOTIC = {"scene": "chaotic", "model": {"acceleration": 80.0, "z0": 0.0}, "duration": 0.2}

@@ -6,7 +6,7 @@ from typing_extensions import TypedDict
 
 from ..pipeline.settings import MOST_POINTS, Duration, Effort, Line, Name, Reference, described, many, mapping, whole
 from ..pipeline.table_settings import FOLLOWED, model_of, with_model
-from .scenes import CHAOTIC, SCENES
+from .scenes import SCENES
 
 Repeats = whole("repetitions", 1, 10**9)
 
@@ -59,13 +59,6 @@ def precision_settings(config: dict, scene: str) -> dict:
 def reference_check_settings(config: dict) -> dict:
     """The scene whose reference is computed a second time: the jumping part."""
     return precision_settings(config, "jumping")
-
-
-def published_scenes(config: dict) -> dict[str, dict]:
-    """The settings of each scene that is published for other solvers."""
-    duration = config["precision"]["duration"]
-    scenes = [{"scene": name, "model": model, "duration": duration} for name, model in SCENES.items()]
-    return {scene["scene"]: {**scene, "model": {**config["model"], **scene["model"]}} for scene in (*scenes, CHAOTIC)}
 
 
 def scene_budget_settings(config: dict) -> dict:

@@ -1,7 +1,6 @@
 # Pages of the documentation, the article and the site, made from results.
 from pathlib import Path
 
-from scripts.accuracy.settings import published_scenes
 from scripts.conveyor import __version__
 from workflow.config.schema import json_schema
 from workflow.config.stages import STAGES
@@ -16,11 +15,8 @@ COPIES = {
     f"docs/{EXAMPLE}calibration.md": result("calibration.md"),
     f"docs/{EXAMPLE}chart.md": result("operating/chart.md"),
 }
-SCENES = published_scenes(config)
-SCENE_FILES = [f"{DOCS}benchmark/{scene}.json" for scene in SCENES]
 # Inputs that fill the template of each page.
 PAGES = {
-    "add_your_solver": {"scenes": SCENE_FILES, "example": source("scripts/accuracy/example_solver.py")},
     "calibration_study": tables_of("results/calibration_study"),
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
     "checked": tables_of("results/theory", "results/map_check"),
@@ -75,24 +71,6 @@ rule page:
         **stage("docs.{page}_page", scripts=lambda wildcards: STAGE_MODULES if wildcards.page == "tables" else []),
     message:
         "The page {wildcards.page}.md"
-    script:
-        "../../scripts/make.py"
-
-
-rule published_scene:
-    output:
-        f"{DOCS}benchmark/{{scene}}.json",
-    log:
-        log_file("docs/benchmark/{scene}"),
-    benchmark:
-        benchmark_file("docs/benchmark/{scene}")
-    wildcard_constraints:
-        scene=one_of(SCENES),
-    params:
-        **stage("accuracy.published_scene"),
-        settings=lambda wildcards: SCENES[wildcards.scene],
-    message:
-        "The scene {wildcards.scene} for other solvers"
     script:
         "../../scripts/make.py"
 
@@ -233,9 +211,8 @@ rule site:
         pages=[
             *SITE_PAGES,
             source("scripts/conveyor/README.md"),
-            *(f"{DOCS}{page}.md" for page in ("checked", "identification", "add_your_solver")),
+            *(f"{DOCS}{page}.md" for page in ("checked", "identification")),
         ],
-        scenes=SCENE_FILES,
         examples=[file for name in ("bowl", "feeder", "measured") for file in sources(f"docs/{name}_*.*")],
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
