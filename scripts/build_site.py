@@ -12,5 +12,10 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
         given = snakemake.input
         extra = {"figures": given.pdf, "": [given.article, given.companion]}
-        site.gather(folder, [*given.pages, *given.examples], given.style, given.png, extra)
+        pages = {
+            "": [*given.pages, *given.examples, *given.pictures],
+            "guides": given.guides,
+            "diagrams": given.diagrams,
+        }
+        site.gather(folder, pages, given.style, given.png, extra)
         site.build(folder, snakemake.output[0])

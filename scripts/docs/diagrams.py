@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 from conveyor import Conveyor, Run, Start, conveyor_motion, simulate
+from docs import pictures
 from figures import style
 
 JUMPING = Start(z=3e-4)
@@ -115,7 +116,7 @@ def to_picture(figure: Figure) -> Image.Image:
     buffer = io.BytesIO()
     style.lay_out(figure)
     figure.savefig(buffer, format="png", dpi=style.RESOLUTION)
-    return Image.open(buffer).convert("RGB")
+    return pictures.make(buffer)
 
 
 def make() -> dict[str, Image.Image]:

@@ -1,5 +1,7 @@
 """Pictures of figures for screens: scaled down and with a palette, so that they take fewer bytes."""
 
+from typing import BinaryIO
+
 from PIL import Image
 
 from figures.style import RESOLUTION
@@ -8,7 +10,7 @@ SCREEN = 220  # dpi
 COLOURS = 256
 
 
-def make(png: str) -> Image.Image:
+def make(png: str | BinaryIO) -> Image.Image:
     """The picture of a figure from its PNG file."""
     with Image.open(png) as image:
         size = [max(1, round(extent * SCREEN / RESOLUTION)) for extent in image.size]

@@ -13,8 +13,6 @@ from docs import pictures
 SETTINGS = {
     "project": "Dynamics of a vibratory conveyor",
     "html_title": "Dynamics of a vibratory conveyor",
-    # Shown inside the tutorial.
-    "exclude_patterns": ["feeder_chart.md"],
     "extensions": ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "docs.sphinx_extension"],
     "myst_enable_extensions": ["colon_fence", "dollarmath"],
     "myst_heading_anchors": 3,
@@ -36,22 +34,25 @@ SETTINGS = {
 
 
 def gather(
-    folder: str, pages: Iterable[str], style: str, figures: Iterable[str], extra: dict[str, Iterable[str]]
+    folder: str, pages: dict[str, Iterable[str]], style: str, figures: Iterable[str], extra: dict[str, Iterable[str]]
 ) -> None:
     """Copy the sources of the site into a folder.
 
     Parameters
     ----------
     folder : of the sources
-    pages, style : Markdown pages and the style sheet
+    pages : Markdown pages and their pictures, by folder of the site
+    style : the style sheet
     figures : PNG files, scaled down into figures/
     extra : files that are copied unchanged, by target folder
     """
     source = Path(folder)
     (source / "style").mkdir()
     shutil.copyfile(style, source / "style" / Path(style).name)
-    for page in pages:
-        shutil.copyfile(page, source / Path(page).name)
+    for place, files in pages.items():
+        (source / place).mkdir(exist_ok=True)
+        for file in files:
+            shutil.copyfile(file, source / place / Path(file).name)
     (source / "figures").mkdir()
     for figure in figures:
         pictures.make(figure).save(source / "figures" / Path(figure).name)

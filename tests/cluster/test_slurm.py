@@ -12,7 +12,7 @@ import local_slurm
 from workflow.config.entries import count_points, resolve
 from workflow.config.sharing import THREADS, seconds_of
 
-GUIDE = ROOT / "workflow/templates/site/own_sweep.md"
+GUIDE = ROOT / "docs/guides/own_sweep.md"
 OBSTACLE = local_slurm.obstacle()
 pytestmark = pytest.mark.skipif(OBSTACLE is not None, reason=f"no Slurm can be started: {OBSTACLE}")
 

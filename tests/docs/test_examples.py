@@ -11,7 +11,7 @@ PAGES = ("tutorial", "library")
 
 @pytest.mark.parametrize("page", PAGES)
 def test_sessions_print_what_the_page_shows(page):
-    text = (ROOT / f"workflow/templates/site/{page}.md").read_text(encoding="utf-8")
+    text = (ROOT / f"docs/guides/{page}.md").read_text(encoding="utf-8")
     sessions = re.findall(r"^```pycon\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
     assert sessions
     # One session: later blocks use the names of earlier ones.
@@ -20,6 +20,6 @@ def test_sessions_print_what_the_page_shows(page):
 
 
 def test_the_machine_of_the_tutorial_is_the_one_whose_chart_it_shows():
-    page = (ROOT / "workflow/templates/site/tutorial.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs/guides/tutorial.md").read_text(encoding="utf-8")
     (overlay,) = re.findall(r"^```yaml\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
-    assert overlay == (ROOT / "workflow/templates/site/feeder.yaml").read_text(encoding="utf-8")
+    assert overlay == (ROOT / "docs/guides/feeder.yaml").read_text(encoding="utf-8")

@@ -17,7 +17,7 @@ from figures.titles import title_of
 
 RESULTS = ROOT / os.environ.get("CONVEYOR_RESULTS", "results")
 SITE = RESULTS / "site"
-PAGES = sorted(path.name for path in SITE.glob("*.html"))
+PAGES = sorted(path.relative_to(SITE).as_posix() for path in SITE.rglob("*.html"))
 CONFIG = read_config()
 WIDE, NARROW = (1600, 900), (360, 740)
 # The interactive page has separate tests.
@@ -52,16 +52,18 @@ def broken(page: str, links: dict[str, Links]) -> list[str]:
         address = urlsplit(link)
         if address.scheme or address.netloc:
             continue
-        target = (SITE / page).parent / unquote(address.path) if address.path else SITE / page
-        places = links[target.name].places if target.name in links else {unquote(address.fragment)}
+        target = Path(os.path.normpath((SITE / page).parent / unquote(address.path) if address.path else SITE / page))
+        name = os.path.relpath(target, SITE)
+        places = links[name].places if name in links else {unquote(address.fragment)}
         if not target.is_file() or (address.fragment and unquote(address.fragment) not in places):
             found.append(link)
     return found
 
 
 def test_all_pages_are_there():
-    wanted = {path.stem for path in (ROOT / "workflow/templates/site").glob("*.md")} | {"article", "companion"}
-    assert wanted <= {Path(page).stem for page in PAGES}
+    wanted = {f"{path.stem}.html" for path in (ROOT / "workflow/templates/site").glob("*.md")}
+    guides = {f"guides/{path.stem}.html" for path in (ROOT / "docs/guides").glob("*.md")}
+    assert wanted | guides | {"article.html", "companion.html"} <= set(PAGES)
 
 
 @pytest.mark.parametrize("page", OWN)

@@ -14,7 +14,8 @@ from snakemake.cli import parse_args
 from conveyor import __version__
 
 CI = (ROOT / ".ci/run").read_text()
-GUIDES = ("CONTRIBUTING.md", *(str(file.relative_to(ROOT)) for file in ROOT.glob("workflow/templates/**/*.md")))
+PAGES = [*ROOT.glob("docs/guides/*.md"), *ROOT.glob("workflow/templates/**/*.md")]
+GUIDES = ("CONTRIBUTING.md", "README.md", *(str(file.relative_to(ROOT)) for file in PAGES))
 
 
 def test_files_that_the_guide_names_exist():
@@ -36,6 +37,24 @@ def test_snakemake_takes_the_commands_of_a_guide(guide):
             _, parsed = parse_args(words)
             targets = {word for word in words if re.fullmatch(r"(figures|results|docs)/.*(?<!yaml)", word)}
             assert targets <= set(parsed.targets), command
+
+
+def anchors(page):
+    """The anchors that a forge gives the headings of a page."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", [*ROOT.glob("docs/guides/*.md"), ROOT / "README.md"], ids=lambda page: page.stem)
+def test_a_guide_can_be_read_where_it_lies(page):
+    """No markup of Jinja or Sphinx outside code, and every link leads to a file of the repository."""
+    text = re.sub(r"```\w+\n.*?```", "", page.read_text(), flags=re.DOTALL)
+    assert re.findall(r"{%.*|{{.*|^:::.*|```{.*", text, re.MULTILINE) == []
+    for link in re.findall(r"\]\((?!http)([^)\s]+)\)", text):
+        path, _, anchor = link.partition("#")
+        target = page.parent / path if path else page
+        assert target.exists(), link
+        assert not anchor or anchor in anchors(target), link
 
 
 def test_names_that_the_guide_says_to_edit_exist():
@@ -127,7 +146,7 @@ def test_the_other_snakefile_plans_the_same(built):
 def test_a_stage_runs_without_snakemake(built, monkeypatch):
     """The lines of the guide compute what the rule has written."""
     built.make_in_process("results/lyapunov/spectrum.parquet")
-    guide = (ROOT / "workflow/templates/site/running.md").read_text()
+    guide = (ROOT / "docs/guides/running.md").read_text()
     run, from_config = re.findall(r"```python\n(.*?)```", guide, re.DOTALL)
     monkeypatch.chdir(built.folder)
     names = {}

@@ -46,7 +46,9 @@ ARTICLE_PARTS = {
     "uncertainty": result("uncertainty.json"),
     "proved": f"{DOCS}certificates.md",
 }
-DIAGRAMS = {name: result(f"diagrams/{name}.png") for name in ("cycle", "contact", "friction", "states")}
+# Figures of the paper's conveyor that README and guides show.
+PICTURES = ("overview", "work_precision", "fig04")
+DIAGRAMS = {name: f"{DOCS}diagrams/{name}.png" for name in ("cycle", "contact", "friction", "states")}
 ARTICLE = source("workflow/templates/article.md")
 SITE_TEMPLATES = [ARTICLE, *sources("workflow/templates/site/*.md")]
 SITE_PAGES = [result(f"site_pages/{Path(file).name}") for file in SITE_TEMPLATES]
@@ -188,7 +190,7 @@ rule site_pages:
         "../../scripts/make.py"
 
 
-# The pictures that explain how the solver works.
+# The pictures that explain how the solver works: snakemake --force docs/diagrams/cycle.png
 rule diagrams:
     output:
         **DIAGRAMS,
@@ -213,10 +215,14 @@ rule site:
             source("scripts/conveyor/README.md"),
             *(f"{DOCS}{page}.md" for page in ("checked", "identification")),
         ],
+        guides=sources("docs/guides/*.md"),
+        # Pages and pictures of other conveyors, and pictures of the paper's figures, to which the guides refer.
         examples=[file for name in ("bowl", "feeder", "measured") for file in sources(f"docs/{name}_*.*")],
+        pictures=[source(f"docs/{name}.png") for name in PICTURES],
+        diagrams=DIAGRAMS.values(),
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
-        png=[*figure_files("png"), *DIAGRAMS.values()],
+        png=figure_files("png"),
     output:
         directory(result("site")),
     log:
@@ -235,7 +241,7 @@ rule site:
 
 # The pictures of the README, and what the site shows of other conveyors:
 #   snakemake docs/bowl_transit.png docs/bowl_basin_stability.png docs/bowl_drive.png --configfile config/examples/bowl.yaml
-#   snakemake docs/feeder_transit.png docs/feeder_chart.md --configfile workflow/templates/site/feeder.yaml
+#   snakemake docs/feeder_transit.png docs/feeder_chart.md --configfile docs/guides/feeder.yaml
 #   snakemake docs/measured_calibration.png docs/measured_calibration.md --configfile config/examples/measured.yaml
 #   snakemake docs/measured_chart.md --configfile config/examples/measured.yaml results/measured/calibrated.yaml
 rule picture:
@@ -248,7 +254,7 @@ rule picture:
     benchmark:
         benchmark_file("docs/{figure}")
     wildcard_constraints:
-        figure="operating|transit|basin_stability|drive|calibration" if EXAMPLE else "overview|work_precision",
+        figure="operating|transit|basin_stability|drive|calibration" if EXAMPLE else one_of(PICTURES),
     params:
         **stage("docs.pictures"),
     message:
