@@ -22,6 +22,7 @@ PROSE = [
     TEMPLATES / "README.md",
     TEMPLATES / "article.md",
     *sorted((TEMPLATES / "site").glob("*.md")),
+    *sorted((ROOT / "docs/guides").glob("*.md")),
 ]
 KEPT = ("README.md", "metadata.yaml", "codecheck.yml")
 FIGURES = read_config()["figures"]
