@@ -1,7 +1,4 @@
-"""Numbers of samples of the calibration and of its simulation study, which `calibration.effort` multiplies.
-
-Imported by the Snakefile: no slow imports.
-"""
+"""Numbers of samples of the calibration, which `calibration.effort` multiplies."""
 
 # Of the search, by an effort of 1.
 FIRST = 256  # sets of parameters of the first round, which fills the ranges
@@ -21,10 +18,6 @@ REPLICATES = 2000  # of all measurements, for each of the tested samples: p-valu
 AMPLITUDES = 65  # between the lowest and the highest measured one, at which velocities are predicted
 PREDICTED = 96  # samples from which velocities are predicted
 PREDICTED_PARTS = 8  # random initial conditions for each of them
-# Data sets of the simulation study: several parts at each of many amplitudes, a few velocities, and four faults.
-SETS = {"rich": 14, "poor": 18, "phase_shift": 5, "inclination": 5, "effective_value": 4, "exponent": 4}
-SETS_OF_TRIAL = {"rich": 1, "poor": 1}
-HELD_OUT = 20  # further parts of each data set at random amplitudes, to check the predicted band
 
 
 def sizes_of(effort: float) -> dict[str, float]:
@@ -45,8 +38,3 @@ def sizes_of(effort: float) -> dict[str, float]:
         "predicted": max(16, round(most * PREDICTED)),
         "predicted_parts": PREDICTED_PARTS,
     }
-
-
-def study_sets(effort: float) -> list[str]:
-    """The kinds of all data sets of the simulation study, in the order of their numbers."""
-    return [kind for kind, count in (SETS if effort >= 1.0 else SETS_OF_TRIAL).items() for _ in range(count)]

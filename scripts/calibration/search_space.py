@@ -1,14 +1,11 @@
 """The searched parameters and their ranges: logarithms of dimensionless groups, so that the ranges fit any conveyor.
 
 The damping is searched as the loss group L and the stiffness as the group K, see `groups_of_contact`. The
-other parameters are searched as they are. A search states which of them are `logarithmic`: measured velocities leave
-angles and phases without the logarithm.
+other parameters are searched as they are.
 
 All functions take `settings` with the `ranges` of the searched parameters, in the order of the coordinates, and the
 `model` with the values of the other parameters.
 """
-
-from collections.abc import Collection
 
 import numpy as np
 
@@ -19,17 +16,15 @@ from pipeline import grid
 LOGARITHMIC = ("friction", "damping", "stiffness", "exponent")
 
 
-def bounds_of(settings: dict, logarithmic: Collection[str] = LOGARITHMIC) -> np.ndarray:
+def bounds_of(settings: dict) -> np.ndarray:
     """Lower and upper bounds of the searched coordinates, shape (2, d)."""
-    return np.array([log(ends) if name in logarithmic else ends for name, ends in settings["ranges"].items()]).T
+    return np.array([log(ends) if name in LOGARITHMIC else ends for name, ends in settings["ranges"].items()]).T
 
 
-def values_at(
-    coordinates: np.ndarray, settings: dict, logarithmic: Collection[str] = LOGARITHMIC
-) -> dict[str, np.ndarray]:
+def values_at(coordinates: np.ndarray, settings: dict) -> dict[str, np.ndarray]:
     """Values of the searched parameters of the model, each of shape (n,), at coordinates, shape (n, d)."""
     values = {
-        name: exp(column) if name in logarithmic else column
+        name: exp(column) if name in LOGARITHMIC else column
         for name, column in zip(settings["ranges"], coordinates.T, strict=True)
     }
     rows = np.full(len(coordinates), grid.row_of(settings["model"]))
@@ -37,10 +32,3 @@ def values_at(
     group, loss = groups_of_contact(rows["stiffness"], rows["damping"], rows)
     contact = contact_of_groups(values.get("stiffness", group), values.get("damping", loss), rows)
     return values | {name: one for name, one in zip(("stiffness", "damping"), contact, strict=True) if name in values}
-
-
-def coordinates_of(model: dict, settings: dict, logarithmic: Collection[str] = LOGARITHMIC) -> np.ndarray:
-    """The coordinates of a complete model, shape (1, d)."""
-    group, loss = groups_of_contact(model["stiffness"], model["damping"], grid.row_of(model))
-    values = {**model, "stiffness": group, "damping": loss}
-    return np.array([[log(values[name]) if name in logarithmic else values[name] for name in settings["ranges"]]])

@@ -1,4 +1,4 @@
-"""Settings of the stage calibration: parameters from measured velocities, or from the paper's numbers."""
+"""Settings of the stage calibration: parameters from measured velocities."""
 
 from typing import NotRequired
 
@@ -38,39 +38,8 @@ class Calibration(TypedDict):
 
 SECTIONS = {
     "calibration": described(Calibration, "parameters from measured velocities"),
-    "identification": mapping(
-        "parameters that the paper's numbers imply",
-        {"effort": number("factor of the numbers of conveyors; below 1: coarse tables", ge=0.1, le=100)},
-    ),
-}
-# Quantities of claims that scripts/calibration/paper_numbers.py computes for any conveyor, and that the search fits.
-NUMBERS_OF_CLAIMS = (
-    "C01.critical_amplitude",
-    "C02.lower_end",
-    "C02.upper_end",
-    "C04.largest_height",
-    "C05.velocity_at_lower_end",
-    "C05.velocity_at_upper_end",
-    "C06.fall",
-    "C07.height",
-    "C08.height",
-    "C09.error",
-    "C10.lower_end",
-    "C10.upper_end",
-)
-# In which the parameters that the paper's numbers imply are searched: dimensionless, as the ranges of the calibration.
-IDENTIFIED = {
-    "friction": [0.08, 0.4],  # μ: from polished steel to rubber; the paper's value, 0.15, is low
-    # L, about the share of the speed that damping takes in an impact; 0.25 as printed. Below this range parts jump at
-    # all amplitudes of the paper, above it at none.
-    "damping": [0.17, 0.38],
-    # K; 72 as printed: from a tenth of it to two and a half times it. At larger values, tongues of other motions cut
-    # into the edge for the lowest initial heights.
-    "stiffness": [7.2, 180.0],
-    "angle": [0.1396, 0.2793],  # rad: 8° to 16°, the printed 12° ± one third
 }
 CALIBRATION_TABLES = ("parameters", "samples", "fit", "alternatives", "prediction", "next")
-POSTERIOR_TABLES = ("numbers", "fits", "intervals", "samples", "frictions")
 
 
 def calibration_settings(config: dict) -> dict:
@@ -87,58 +56,7 @@ def calibration_settings(config: dict) -> dict:
     return {**box_of(config), **own, "ranges": ranges, "static_friction": static_friction, "model": model}
 
 
-def study_table_settings(config: dict) -> dict:
-    """The study calibrates with the settings of the config, without its conveyor and its measurements."""
-    own = {name: value for name, value in calibration_settings(config).items() if name not in ("measurements", "model")}
-    own["ranges"] = {name: config["calibration"]["ranges"][name] for name in ("friction", "damping", "stiffness")}
-    own["parameters"] = list(own["ranges"])
-    model = model_of(config, without=(*INITIAL_CONDITION, "static_friction"))
-    return {**box_of(config), "calibration": own, "model": model}
-
-
-def edges_settings(config: dict) -> dict:
-    return {"ranges": IDENTIFIED, **config["identification"], "model": model_of(config, normal=True)}
-
-
-def paper_posterior_settings(config: dict) -> dict:
-    method = {name: config["solver"][name] for name in ("duration", "step", "settling", "mean_settling")}
-    computed = {"numbers": paper_numbers(config), "measured": measured_quantities(config)}
-    return {**edges_settings(config), "model": model_of(config), **computed, "euler": {**method, "method": "euler"}}
-
-
-def paper_numbers(config: dict) -> dict[str, dict]:
-    """The paper's numbers CLAIM.QUANTITY, each with the ends of its accepted interval."""
-    numbers = {}
-    for key in NUMBERS_OF_CLAIMS:
-        claim, name = key.split(".")
-        quantity = config["claims"][claim]["quantities"][name]
-        low, high = quantity["accepted"]
-        numbers[key] = {"is": quantity["is"], "paper": quantity["paper"], "low": low, "high": high}
-    return numbers
-
-
-def measured_quantities(config: dict) -> dict:
-    """The axes and settings with which the claims measure these numbers."""
-
-    def ends_and_count(axis: list | dict) -> list:
-        if isinstance(axis, dict):
-            return [axis["start"], axis["stop"], axis["num"]]
-        return [axis[0], axis[-1], len(axis)]
-
-    sweeps, fit = config["sweeps"], config["regressions"]["height"]
-    return {
-        "interval": fit["acceleration"],
-        "starts": ends_and_count(sweeps["amplitudes"]["axes"]["z0"]),
-        "moved_starts": ends_and_count(sweeps["interval"]["axes"]["z0"]),
-        "critical": {name: config["claims"][name]["settings"]["acceleration"] for name in ("C07", "C08")},
-        "triple": fit["paper"],
-    }
-
-
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
-    "results/calibration_study": study_table_settings,
-    "identification/edges": edges_settings,
-    **dict.fromkeys((f"identification/{name}" for name in POSTERIOR_TABLES), paper_posterior_settings),
 }

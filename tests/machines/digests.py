@@ -11,15 +11,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(ROOT / "scripts"), str(ROOT / "tests"), str(ROOT / "tests/calibration")]
 
-import numpy as np  # noqa: E402
 import pandas as pd  # noqa: E402
 from project import read_config  # noqa: E402
 
 import conveyor  # noqa: E402
-from calibration import paper_numbers as numbers  # noqa: E402
-from calibration import paper_posterior as posterior  # noqa: E402
 from calibration.calibrate import calibrate  # noqa: E402
-from calibration.edges import HEIGHTS  # noqa: E402
 from conveyor.certificates.balls import exactly, precision  # noqa: E402
 from conveyor.certificates.law import Accuracy, law_of  # noqa: E402
 from conveyor.certificates.orbit import prove_orbit  # noqa: E402
@@ -30,30 +26,11 @@ from test_inference import SETTINGS, measured  # noqa: E402
 from workflow.config.tables import TABLES  # noqa: E402
 
 CONFIG = read_config()
-EVERYTHING = {"without": [], "shifted": False}
 
 
 def calibration():
     few = {"first": 60, "points": 40, "rounds": 4, "alternatives": {"inclination": 0.2}}
     return calibrate(measured(), SETTINGS | few)
-
-
-def identification():
-    """Edges that a formula gives in place of trajectories, at four values of loss and group."""
-    settings = TABLES["identification/numbers"](CONFIG)
-    settings |= {"effort": 0.1}
-    loss, group = (np.geomspace(*settings["ranges"][name], 4) for name in ("damping", "stiffness"))
-    axes = [loss, group, list(posterior.VERTICAL), HEIGHTS]
-    table = pd.MultiIndex.from_product(axes, names=["loss", "group", "tension", "z0"]).to_frame(index=False)
-    edge = 10.4 - 1.6e4 * table.z0 + 2.7e7 * table.z0**2 - 2.0 * np.log(table.loss / 0.25) + 0.1 * table.group / 72.0
-    splines = numbers.interpolate_edges(table.assign(vertical_acceleration=edge))
-
-    def quantities(x, tension, velocities=True):
-        follow = numbers.converged_velocities if velocities else None
-        return numbers.measure_by_table(x, splines, tension, settings, follow)
-
-    samples, fits = posterior.infer(EVERYTHING, {}, quantities, settings)
-    return {"samples": samples, "fits": fits}
 
 
 def drive_search():
@@ -86,7 +63,7 @@ def certificate():
         return {"proof": pd.DataFrame([{"trace": str(proved.trace), "enclosure": str(proved.zero.enclosure)}])}
 
 
-for make in (calibration, identification, drive_search, labels, orbits, certificate):
+for make in (calibration, drive_search, labels, orbits, certificate):
     for name, table in make().items():
         text = pd.DataFrame(table).to_csv(index=False)
         print(make.__name__, name, hashlib.sha256(text.encode()).hexdigest()[:16], flush=True)

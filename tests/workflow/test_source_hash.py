@@ -20,7 +20,6 @@ CALLS = {
         "sweeps/shards",
     },
     "operating/shares": {"operating/regimes"},
-    "calibration/study_table": {"calibration/calibrate", "calibration/prediction"},
     "operating/advice": {"operating/transit"},
     "operating/drift": {"operating/regimes", "operating/transit"},
     "operating/track": {"operating/regimes", "operating/shares"},
@@ -29,7 +28,6 @@ CALLS = {
     "excitation/clean_drive": {"operating/transit"},
     "excitation/comparison": {"operating/transit"},
     "operating/throws": {"operating/regimes", "operating/shares"},
-    "calibration/paper_posterior": {"calibration/edges", "motion/critical"},
     "claims/verdicts": {"accuracy/stability_estimates"},
 }
 

@@ -8,8 +8,6 @@ from scripts.conveyor import __version__
 QUOTED_TABLES = sorted({*references_of(config["figures"]), *references_of(config["claims"])})
 BYPRODUCTS = {
     "sensitivity/derivatives": "sensitivity/groups",
-    "identification/samples": "identification/intervals",
-    "identification/frictions": "identification/numbers",
 }
 BUILT_TABLES = sorted(
     {

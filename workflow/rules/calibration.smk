@@ -1,13 +1,6 @@
-# Parameters of a conveyor from measured velocities, and of the paper's conveyor from its numbers. Only a config with
-# `calibration.measurements` has targets of measured velocities. The simulation study of the method, docs/calibration_study.md, and the
-# measurements of the example are made on request.
-from scripts.calibration.effort import study_sets
-from scripts.calibration.settings import POSTERIOR_TABLES
-
+# Parameters of a conveyor from measured velocities. Only a config with `calibration.measurements` has these targets.
+# The measurements of the example are made on request.
 CALIBRATION_FILES = [result("calibration.md"), figure_file("calibration")] if MEASURED["calibration"] else []
-# The data sets of the simulation study, numbered through.
-STUDY_KINDS = study_sets(config["calibration"]["effort"])
-STUDY_SETS = [result(f"calibration_study/{kind}_{number}.json") for number, kind in enumerate(STUDY_KINDS)]
 
 
 rule calibration:
@@ -79,81 +72,6 @@ rule calibrated:
         **stage("calibration.overlay"),
     message:
         "An overlay with the calibrated parameters"
-    script:
-        "../../scripts/make.py"
-
-
-rule study_set:
-    output:
-        row=result("calibration_study/{kind}_{number}.json"),
-    log:
-        log_file("calibration_study/{kind}_{number}"),
-    benchmark:
-        benchmark_file("calibration_study/{kind}_{number}")
-    wildcard_constraints:
-        kind=one_of(STUDY_KINDS),
-        number=r"\d+",
-    params:
-        **stage("calibration.study"),
-        settings=lambda wildcards: settings_of(config, "results/calibration_study"),
-        kind=lambda wildcards: wildcards.kind,
-        number=lambda wildcards: int(wildcards.number),
-    message:
-        "Study of the calibration: {wildcards.kind} {wildcards.number}"
-    script:
-        "../../scripts/make.py"
-
-
-rule calibration_study:
-    input:
-        rows=STUDY_SETS,
-    output:
-        **tables_of("results/calibration_study"),
-    log:
-        log_file("calibration_study"),
-    benchmark:
-        benchmark_file("calibration_study")
-    params:
-        **stage("calibration.study_table", "results/calibration_study"),
-    message:
-        "Simulation study of the calibration"
-    script:
-        "../../scripts/make.py"
-
-
-# The paper's numbers as data. These jobs start first, because they wait for each other. Their priority is above that of two jobs of
-# `precision` together, which would begin beside each other on a cold cache and compile the same functions.
-rule identification_edges:
-    output:
-        **tables_of("identification/edges"),
-    log:
-        log_file("identification/edges"),
-    benchmark:
-        benchmark_file("identification/edges")
-    priority: 5
-    threads: THREADS
-    params:
-        **stage("calibration.edges", "identification/edges"),
-    message:
-        "Edges of the first state over the contact parameters"
-    script:
-        "../../scripts/make.py"
-
-
-rule identification_posterior:
-    input:
-        **tables_of("identification/edges"),
-    output:
-        **tables_of(*(f"identification/{name}" for name in POSTERIOR_TABLES)),
-    log:
-        log_file("identification/posterior"),
-    benchmark:
-        benchmark_file("identification/posterior")
-    priority: 5
-    params:
-        **stage("calibration.paper_posterior", "identification/numbers"),
-    message:
-        "Parameters that the paper's numbers imply"
     script:
         "../../scripts/make.py"
 

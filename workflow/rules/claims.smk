@@ -11,9 +11,7 @@ CHECKED = [result("checked.txt")] if RESULT_TESTS else []
 TESTED_TABLES = [
     reference
     for reference in references(config)
-    if reference.startswith(("orbits/", "lyapunov/", "precision/", "results/"))
-    and reference != "results/calibration_study"  # which only an explicit target makes
-    and RESULT_TESTS
+    if reference.startswith(("orbits/", "lyapunov/", "precision/", "results/")) and RESULT_TESTS
 ]
 
 

@@ -21,7 +21,7 @@ if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
 # "" or "NAME/": a config with a prefix has its own folder of results and figures.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
 CORES = workflow.cores or 1
-# The facts and the identification need all claims of the paper.
+# The facts need all claims of the paper.
 HAS_ALL_CLAIMS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()
 
 
@@ -128,20 +128,15 @@ def settings_of_table(reference):
     section, name = reference.split("/")
     if section in ENTRIES and name not in config[section]:
         raise WorkflowError(f"the config has no entry {section}.{name}; add it, or name another entry")
-    if section == "identification" and name != "edges":
-        check_claims(table(reference))
     return settings_of(config, reference)
-
-
-def check_claims(target):
-    """An error for a target that needs all claims of the paper, if this config lacks them."""
-    if not HAS_ALL_CLAIMS:
-        raise WorkflowError(f"{target} needs the paper's claims, which this config lacks; use the paper's config")
 
 
 def tables_of_facts(wildcards):
     """The tables behind the text of README, article and site; an error for a config without the paper's claims."""
-    check_claims("the text of README, article and site")
+    if not HAS_ALL_CLAIMS:
+        raise WorkflowError(
+            "the text of README, article and site needs the paper's claims, which this config lacks; use the paper's config"
+        )
     return FACTS
 
 

@@ -17,10 +17,8 @@ COPIES = {
 }
 # Inputs that fill the template of each page.
 PAGES = {
-    "calibration_study": tables_of("results/calibration_study"),
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
     "checked": tables_of("results/theory", "results/map_check"),
-    "identification": tables_of(*(f"identification/{name}" for name in POSTERIOR_TABLES)),
     "second_harmonic": tables_of("operating/second_harmonic"),
     "tables": {},
 }
@@ -213,7 +211,7 @@ rule site:
         pages=[
             *SITE_PAGES,
             source("scripts/conveyor/README.md"),
-            *(f"{DOCS}{page}.md" for page in ("checked", "identification")),
+            f"{DOCS}checked.md",
         ],
         guides=sources("docs/guides/*.md"),
         # Pages and pictures of other conveyors, and pictures of the paper's figures, to which the guides refer.
