@@ -73,7 +73,7 @@ def test_the_manifest_lists_all_files_except_pages_and_intermediate_tables(built
 
 
 def test_a_changed_result_is_found_with_the_manifest(copied):
-    """As the page "Compare two builds" describes."""
+    """As the page "Choose what to run" describes."""
     folder = copied.folder
     check = ["sha256sum", "--quiet", "--check", MANIFEST]
     subprocess.run(check, cwd=folder, check=True)
