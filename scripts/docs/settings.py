@@ -2,7 +2,7 @@
 
 from typing_extensions import TypedDict
 
-from ..pipeline.settings import Model, Name, described, entries, many, mapping, number
+from ..pipeline.settings import Model, Name, described, entries, many
 
 
 class Companion(TypedDict):
@@ -10,10 +10,4 @@ class Companion(TypedDict):
     presets: entries(Model, "conveyors of the page", min_length=1)
 
 
-SECTIONS = {
-    "companion": described(Companion, "the interactive page"),
-    "archive": mapping(
-        "the archive of figures, tables and sources",
-        {"megabytes": number("largest size of the archive", "MB", gt=0, le=1e6)},
-    ),
-}
+SECTIONS = {"companion": described(Companion, "the interactive page")}

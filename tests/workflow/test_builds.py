@@ -116,19 +116,19 @@ def test_the_commit_belongs_to_the_sources(tmp_path):
         identity = ("-c", "user.name=A", "-c", "user.email=a@b.c")
         subprocess.run(["git", *identity, *arguments], cwd=tmp_path, check=True, capture_output=True)
 
-    archive = tmp_path / "archive"
-    archive.mkdir()
-    (archive / "file").write_text("one")
+    copy = tmp_path / "copy"
+    copy.mkdir()
+    (copy / "file").write_text("one")
     git("init")
     git("add", ".")
     git("commit", "--message", "one")
     found = provenance.sources(tmp_path)
     assert len(found["commit"]) == 40
     assert found["clean"] is True
-    (archive / "file").write_text("two")
+    (copy / "file").write_text("two")
     assert provenance.sources(tmp_path) == {"commit": found["commit"], "clean": False}
-    # An archive in a folder of another repository has no commit.
-    assert provenance.sources(archive) == {"commit": "unknown", "clean": "unknown"}
+    # A copy in a folder of another repository has no commit.
+    assert provenance.sources(copy) == {"commit": "unknown", "clean": "unknown"}
 
 
 @pytest.mark.long

@@ -33,7 +33,7 @@ from .sharing import plan
 from .tables import NAMED, TABLES, entry_of, references, references_of
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
-RESERVED = {*NAMED, *(table.split("/")[0] for table in TABLES), "archive", "article", "benchmarks", "captions"}
+RESERVED = {*NAMED, *(table.split("/")[0] for table in TABLES), "article", "benchmarks", "captions"}
 RESERVED |= {"checks", "claims", "docs", "logs", "runs", "sections", "shards", "site", "site_pages"}
 LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
 MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds

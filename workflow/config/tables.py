@@ -2,7 +2,7 @@
 
 The rule that makes a table passes its settings to the script, which stores them in the table. A rule that reads the
 table expects the same settings, so a table that was made from other settings is refused. Snakemake would notice other
-settings only as long as it has its own records, which neither an archive nor a copy of the results contains.
+settings only as long as it has its own records, which a copy of the results does not contain.
 """
 
 import itertools

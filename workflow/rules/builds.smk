@@ -1,8 +1,6 @@
-# Manifest, provenance and archive of a build, which are made after all other files.
+# Manifest and provenance of a build, which are made after all other files.
 import hashlib
 import json
-
-from scripts.conveyor import __version__
 
 # The tables that figures, captions and claims are made from, and tables that the same jobs make for pages only.
 QUOTED_TABLES = sorted({*references_of(config["figures"]), *references_of(config["claims"])})
@@ -29,11 +27,6 @@ BUILD_RECORDS = [result("manifest.sha256"), result("provenance.json")]
 # Kinds of tables with measured times, which differ from build to build, and the figures that are drawn from them.
 TIMED = {"benchmark", "precision_times", "certificate_times", "budget_times"}
 TIMED_FIGURES = [name for name, entry in config["figures"].items() if TIMED & {*map(kind_of, entry["tables"].values())}]
-# Sources in an archive, with which its figures and results can be made again.
-ARCHIVED = [
-    *("Snakefile", "README.md", "LICENSE", "CITATION.cff", "CONTRIBUTING.md", "CHANGELOG.md", "pyproject.toml"),
-    *("environment.txt", "conveyor.def", "config/**/*", "workflow/**/*", "profiles/**/*", "scripts/**/*", "tests/**/*"),
-]
 
 
 # The last job, which runs alone: it needs one core, but records how many there are.
@@ -64,40 +57,3 @@ rule provenance:
         "The manifest of all results; commit, config, versions and processor of the build"
     script:
         "../../scripts/make.py"
-
-
-rule archive:
-    input:
-        results=[
-            *figure_files(),
-            *caption_files(),
-            *map(table, QUOTED_TABLES),
-            *CLAIM_FILES,
-            *BUILD_RECORDS,
-        ],
-        sources=[file for pattern in ARCHIVED for file in sources(pattern)],
-        overlays=[file for file in OVERLAYS if not file.startswith("..")],
-        readme=source("workflow/templates/ARCHIVE.md"),
-    output:
-        directory(f"archive/{config['prefix'] or 'paper'}"),
-    log:
-        log_file("builds/archive"),
-    benchmark:
-        benchmark_file("builds/archive")
-    params:
-        figures={
-            figure_file(name): {
-                "name": name,
-                "tables": {role: table(reference) for role, reference in entry["tables"].items()},
-                "kinds": {role: kind_of(reference) for role, reference in entry["tables"].items()},
-                "settings": entry.get("settings", {}),
-            }
-            for name, entry in config["figures"].items()
-        },
-        megabytes=config["archive"]["megabytes"],
-        version=__version__,
-        code=lambda wildcards: source_hash("archive"),
-    message:
-        "An archive of the figures, their tables and the sources"
-    script:
-        "../../scripts/archive.py"
