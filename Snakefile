@@ -6,7 +6,7 @@ from snakemake.utils import min_version
 
 try:
     from workflow.config import ConfigError, announce, load_config
-    from workflow.config.files import DEFAULT_FILES, ROOT, parse_texts
+    from workflow.config.files import DEFAULT_FILES, ROOT
 except ModuleNotFoundError as error:
     if error.name.partition(".")[0] != "workflow":
         raise
@@ -24,9 +24,7 @@ OVERLAYS = []
 if Path(workflow.main_snakefile).resolve().is_relative_to(ROOT):
     OVERLAYS = [os.path.relpath(file) for file in workflow.overwrite_configfiles]
     # Without the default values of `configfile:`, which would count as given by the user and would not be scaled.
-    config = parse_texts(dict(workflow.config_settings.config))
-else:
-    config = parse_texts(config)
+    config = dict(workflow.config_settings.config)
 
 try:
     loaded = load_config(DEFAULT_FILES, OVERLAYS, config)

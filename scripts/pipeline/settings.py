@@ -4,6 +4,7 @@ from functools import partial
 from typing import Annotated, Any, Literal, NotRequired
 
 from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag, WrapValidator
+from pydantic_core import PydanticCustomError
 from typing_extensions import TypedDict
 
 from ..conveyor import (
@@ -30,7 +31,8 @@ def number(description: str, unit: str = "", *, scaled: bool = True, **bounds: f
     `scaled` says whether it follows the scales of another conveyor; the length of a track, for example, does not.
     """
     extra = ({"unit": unit} if unit else {}) | ({} if scaled else {"scaled": False})
-    return Annotated[float, Field(description=description, json_schema_extra=extra, **bounds)]
+    field = Field(description=description, json_schema_extra=extra, **bounds)
+    return Annotated[float, field, BeforeValidator(refuse_truth)]
 
 
 def whole(description: str, least: int, most: int, unit: str = "") -> Any:
@@ -41,7 +43,25 @@ def whole(description: str, least: int, most: int, unit: str = "") -> Any:
 
 
 def as_integer(value: Any) -> Any:
-    return int(value) if isinstance(value, float) and value.is_integer() else value
+    if isinstance(value, str) and is_number(value):
+        value = float(value)
+    return int(value) if isinstance(value, float) and value.is_integer() else refuse_truth(value)
+
+
+def refuse_truth(value: Any) -> Any:
+    """A value that is neither true nor false, which are the numbers 1 and 0 to Python."""
+    if isinstance(value, bool):
+        raise PydanticCustomError("number", "Input should be a number")
+    return value
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is a number: to YAML 1.1, with which other workflows read their config, 1e-8 is a text."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def text(description: str, pattern: str, expected: str) -> Any:
@@ -158,7 +178,7 @@ def axis_form(value: Any) -> str | None:
 
 
 def height_form(value: Any) -> str | None:
-    return "word" if value == "conveyor" else None if isinstance(value, str) else "number"
+    return "word" if value == "conveyor" else None if isinstance(value, str) and not is_number(value) else "number"
 
 
 def axis(item: Any, description: str, end: Any = None, least: int = 1, check=check_distinct) -> Any:

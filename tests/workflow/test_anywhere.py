@@ -103,7 +103,7 @@ def test_rules_of_the_module_with_changes(tmp_path):
 def test_nested_values_of_the_command_line_reach_the_module(tmp_path):
     (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + "use rule * from conveyor")
     run = call_snakemake("--dry-run", "figures/fig05.pdf", "--config", "model={damping: -0.2}", folder=tmp_path)
-    assert "model.damping = -0.2 should be at least 0" in run.stdout
+    assert "model.damping = '-0.2' should be at least 0" in run.stdout
 
 
 FROM_GIT = """

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from .checks import problems
 from .entries import MEASURED_FILES, by_methods, with_tighter
 from .errors import ConfigError, type_problems
-from .files import changed_values, merge, read_all
+from .files import changed_values, merge, name_lines, read_all
 from .model import MODEL
 from .own_conveyor import describe_scaling, is_own_conveyor, names_conveyor, scale_config
 
@@ -67,7 +67,7 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
     whole = merge(paper, *overlays, config)
     # Not whether values fit together: an overlay may give one end of a range whose other end is scaled below.
     if errors := type_problems(whole, ignored="value_error"):
-        raise ConfigError(errors)
+        raise ConfigError(name_lines(errors, overlay_files))
     if own_conveyor := is_own_conveyor(paper, whole):
         # The overlays in front of the conveyor's, such as config/reduced.yaml, are for the paper's conveyor.
         before = list(itertools.takewhile(lambda overlay: not describes_conveyor(paper, overlay), overlays))
@@ -81,7 +81,7 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
         whole["uncertainty"] |= {"claims": [name for name in checked if name in whole["claims"]]}
     name_measurements(whole, overlay_files, overlays)
     if errors := problems(whole, paper):
-        raise ConfigError(errors)
+        raise ConfigError(name_lines(errors, overlay_files))
     for section, key in MEASURED_FILES:
         if key not in whole[section]:
             whole["figures_on_request"].pop(section, None)

@@ -2,13 +2,11 @@
 
 import difflib
 import math
-import re
 from collections.abc import Iterable
 from reprlib import Repr
 from textwrap import shorten
 from typing import Any
 
-import yaml
 from pydantic import ValidationError
 
 from .model import MODEL
@@ -20,8 +18,6 @@ MOST_LINES = 6  # of a message: ten with the four lines that Snakemake adds
 SHORT = Repr()
 SHORT.maxstring = SHORT.maxother = 60
 format_value = SHORT.repr
-# A number that YAML 1.1 reads as text, such as 1e-4.
-NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
@@ -59,7 +55,7 @@ def explain(error: dict) -> str:
         # {frequency: 50,0} has the key 0.
         has_comma = type(value) is int and any("properties" in option for option in options_of(schema_at(path[:-1])))
         remedy = "write decimal points, not commas" if has_comma else "put it in quotes"
-        return f"{above} has a key that YAML reads as {value!r}, not as text; {remedy}"
+        return f"{above} has the key {value!r}, which is not text; {remedy}"
     if is_name:
         names = schema_at(path[:-1])["propertyNames"]
         remedy = suggest_name(value, names["enum"]) if "enum" in names else f"give {names['patternErrorMessage']}"
@@ -73,21 +69,20 @@ def explain(error: dict) -> str:
         return f"{shown} {error['ctx']['error']}"
     if kind == "string_pattern_mismatch":
         return f"{shown} should be {schema['patternErrorMessage']}"
-    if kind in ("float_type", "int_type", "form") and isinstance(value, str) and NUMBER.fullmatch(value):
-        is_quoted = isinstance(yaml.safe_load(value), int | float)
-        remedy = "remove the quotes" if is_quoted else "write it with a decimal point and a signed exponent (1.0e-4)"
-        return f"{shown} is text to YAML; {remedy}"
     if kind == "dict_type" and value is None and path:
         return f"{key} is empty; give keys below it, or delete it"
     if kind == "string_type" and isinstance(value, int | float):
-        return f"{shown} is no text to YAML; put it in quotes"
+        return f"{shown} is a number, not text; put it in quotes"
     # "Input should be …", "List should have …"
     unit, fault = unit_of(schema), error["msg"].partition(" ")[2]
     for name, bound in error.get("ctx", {}).items():
         fault = f"should be {BOUNDS[name]} {bound:g}" if name in BOUNDS else fault
+    if kind.endswith("_parsing"):
+        fault = fault.partition(",")[0]  # without "unable to parse string as a number"
     fault = fault.replace(" after validation", "").replace("dictionary", "mapping")
-    is_degrees = kind == "less_than_equal" and unit == "rad" and value <= 360
-    remedy = f"; angles are in radians, {value:g}° are {math.radians(value):.4f} rad" if is_degrees else ""
+    remedy = ""
+    if kind == "less_than_equal" and unit == "rad" and (degrees := float(value)) <= 360:
+        remedy = f"; angles are in radians, {degrees:g}° are {math.radians(degrees):.4f} rad"
     return f"{shown} {fault}{f' ({unit})' if unit not in ('', '1') else ''}{remedy}"
 
 

@@ -1,134 +1,77 @@
-"""Read and merge config files, and reject what YAML 1.1 would misread.
+"""Read config files as YAML 1.2, and merge them.
 
-YAML 1.1 keeps the last of two equal keys, and reads 050 as 40 and 1:30 as 90.
+Snakemake reads the files of --configfile as YAML 1.1, which keeps the last of two equal keys, reads 050 as 40 and 1:30
+as 90, and 1e-8 as text. So overlays are read again here.
 """
 
-import re
-from collections.abc import Iterator
+import itertools
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
-import yaml
+from ruamel.yaml import YAML
+from ruamel.yaml.error import YAMLError
+from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 from snakemake.utils import update_config
 
-from .errors import ConfigError, format_key, format_value
+from .errors import ConfigError, format_key
 from .stages import STAGES
 
 ROOT = Path(__file__).resolve().parents[2]
 DEFAULT_FILES = tuple(ROOT / f"config/{name}.yaml" for name in ("config", *STAGES))
-# Of a file, with anchors expanded: larger files take seconds to check.
-MOST_CHARACTERS, MOST_VALUES, MOST_LEVELS = 1_000_000, 12_000, 50
-OCTAL = re.compile(r"[-+]?0[0-7_]+")
-# PyYAML's errors for text that its tag does not allow, as in !!bool maybe, 2024-13-45, or an integer of 5,000 digits.
-UNREADABLE = (yaml.YAMLError, ValueError, LookupError, AttributeError)
-SCALARS = yaml.SafeLoader("")
 
 
-def size_fault(text: str) -> str | None:
-    """What makes a YAML text too large to be parsed, or None. The parser's own recursion would crash on deep levels."""
-    values, began, anchored = 0, [], {}
-    for event in yaml.parse(text, Loader=yaml.CSafeLoader):
-        line = event.start_mark.line + 1
-        if isinstance(event, yaml.CollectionEndEvent):
-            anchor, before = began.pop()
-            anchored[anchor] = values - before
-        elif isinstance(event, yaml.AliasEvent):
-            values += anchored.get(event.anchor, 1)
-        elif isinstance(event, yaml.NodeEvent):
-            values += 1
-            if isinstance(event, yaml.CollectionStartEvent):
-                began.append((event.anchor, values))
-        if len(began) > MOST_LEVELS:
-            return f"{line}: has more than {MOST_LEVELS} nested levels; write a flatter file"
-        if values > MOST_VALUES:
-            remedy = "write a long axis as {start: …, stop: …, num: …}, and fewer anchors"
-            return f"{line}: has more than {MOST_VALUES:,} values; {remedy}"
-    if len(text) > MOST_CHARACTERS:
-        return f"1: has more than {MOST_CHARACTERS:,} characters; write a shorter file"
-    return None
-
-
-def misread(node: yaml.Node, path: tuple[str | int, ...] = (), above: tuple[yaml.Node, ...] = ()) -> Iterator[str]:
-    """ "LINE: fault" for each value below a node that YAML reads differently than expected; `above` are its parents."""
-    key, line = format_key(path), node.start_mark.line + 1
-    if node in above:
-        yield f"{line}: {key} contains itself through an anchor; write the values out"
-    elif isinstance(node, yaml.MappingNode):
-        lines = {}
-        for name, value in node.value:
-            if isinstance(name, yaml.ScalarNode):
-                inner, here = (*path, name.value), name.start_mark.line + 1
-                if name.value in lines:
-                    yield f"{here}: {format_key(inner)} is already set in line {lines[name.value]}; merge both"
-                lines[name.value] = here
-                yield from misread(name, inner)
-                yield from misread(value, inner, (*above, node))
-    elif isinstance(node, yaml.SequenceNode):
-        for place, value in enumerate(node.value):
-            yield from misread(value, (*path, place), (*above, node))
-    elif fault := scalar_fault(node):
-        yield f"{line}: {key} = {format_value(node.value)[1:-1]} {fault}"
-
-
-def scalar_fault(node: yaml.ScalarNode) -> str | None:
-    """The fault of a scalar that YAML cannot read, or reads differently than expected; None if it has none."""
-    if node.tag.endswith(":merge"):
-        return None
+def read(file: str | Path) -> dict:
+    """The content of a config file; ConfigError names the file, and the line if possible."""
     try:
-        value = SCALARS.construct_object(node)
-    except UNREADABLE:
-        return f"cannot be read as {node.tag.rpartition(':')[2]}; write a number, or text in quotes, without a tag"
-    if node.tag.endswith((":int", ":float")) and (":" in node.value or OCTAL.fullmatch(node.value)):
-        reason, sign = ("with base 60", "colons") if ":" in node.value else ("an octal number", "the 0")
-        return f"is read as {value}, {reason}; write it without {sign}"
-    return None
-
-
-def read(file: str | Path) -> tuple[list[str], Any]:
-    """All faults of a config file, one line each, and its content (None if it cannot be read)."""
-    # A pipe, as in --configfile <(…), cannot be read again by Snakemake.
-    if Path(file).exists() and not Path(file).is_file() and not Path(file).is_dir():
-        return [f"{file}: is no regular file; save the config in one, and name that file"], None
-    try:
-        text = Path(file).read_text(encoding="utf-8")
+        content = YAML(typ="safe").load(Path(file).read_text(encoding="utf-8"))
     except OSError as error:
-        return [f"{file}: {error.strerror}; name a config file (put targets before --configfile)"], None
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        return [f"{file}:{line}: is not UTF-8 text ({error.reason}); save it as UTF-8"], None
-    return parse(text, str(file))
-
-
-def parse(text: str, source: str) -> tuple[list[str], Any]:
-    """All faults of a YAML text, one line each, and its content (None if it cannot be read).
-
-    source : what messages call the text
-    """
-    try:
-        if fault := size_fault(text):
-            return [f"{source}:{fault}"], None
-        node = yaml.compose(text, Loader=yaml.CSafeLoader)
-        if faults := list(misread(node)) if node else []:
-            return list(dict.fromkeys(f"{source}:{fault}" for fault in faults)), None
-        content = yaml.load(text, Loader=yaml.CSafeLoader)
-    except (*UNREADABLE, TypeError) as error:
+        remedy = "name a config file (put targets before --configfile)"
+        raise ConfigError([f"{file}: {error.strerror}; {remedy}"]) from error
+    # LookupError and ValueError: a value that does not fit its tag, such as !!bool maybe or the date 2024-13-45.
+    except (YAMLError, LookupError, ValueError) as error:
         mark = getattr(error, "problem_mark", None)
-        reason = " ".join(str(getattr(error, "problem", error)).split())
-        place = f"{source}:{mark.line + 1}" if mark else source
-        has_tab = mark and "\t" in "".join(text.splitlines()[mark.line : mark.line + 1])
-        remedy = "write spaces in place of tabs" if has_tab else "compare it with config/config.yaml"
-        return [f"{place}: is not YAML: {reason}; {remedy}"], None
+        place = f"{file}:{mark.line + 1}" if mark else file
+        raise ConfigError([f"{place}: is not valid YAML: {getattr(error, 'problem', error)}"]) from error
     if not isinstance(content, dict):
-        return [f"{source}: has no keys with values; begin with a section of config/config.yaml"], None
-    return [], content
+        raise ConfigError([f"{file}: has no keys with values; begin with a section such as model"])
+    return content
 
 
-def read_all(files: list[str | Path]) -> list[dict]:
-    """The contents of config files; ConfigError names all faults with file and line."""
-    results = [read(file) for file in files]
-    if faults := [fault for faults, _ in results for fault in faults]:
-        raise ConfigError(faults)
-    return [content for _, content in results]
+def find_lines(file: str | Path) -> dict[tuple[str | int, ...], str]:
+    """FILE:LINE of the keys and list items of a config file, by their paths.
+
+    A value that YAML repeats through an anchor has the lines of its first place only.
+    """
+    seen = set()
+
+    def lines_below(node: Node, path: tuple) -> Iterator[tuple[tuple, str]]:
+        pairs = node.value if isinstance(node, MappingNode) else ()
+        items = enumerate(node.value) if isinstance(node, SequenceNode) else ()
+        named = itertools.chain(
+            ((key.value, key, value) for key, value in pairs), ((place, item, item) for place, item in items)
+        )
+        for part, marked, value in named if id(node) not in seen else ():
+            yield (*path, part), f"{file}:{marked.start_mark.line + 1}"
+            yield from lines_below(value, (*path, part))
+        seen.add(id(node))
+
+    return dict(lines_below(YAML(typ="safe").compose(Path(file).read_text(encoding="utf-8")), ()))
+
+
+def name_lines(errors: Sequence[str], files: Sequence[str | Path]) -> list[str]:
+    """Errors that begin with a key, each with FILE:LINE of this key in the last file that has it."""
+    lines = {format_key(path): line for file in files for path, line in find_lines(file).items()}
+    named = []
+    for error in errors:
+        key = error.partition(" ")[0]
+        line = lines.get(key.rpartition(".")[0] if error == f"{key} is missing" else key)
+        named.append(f"{line}: {error}" if line else error)
+    return named
+
+
+def read_all(files: Sequence[str | Path]) -> list[dict]:
+    """The contents of config files."""
+    return [read(file) for file in files]
 
 
 def merge(*configs: dict) -> dict:
@@ -152,18 +95,3 @@ def changed_values(before: dict, after: dict) -> dict:
         elif key not in before or before[key] != value:
             changed[key] = value
     return changed
-
-
-def parse_texts(value: Any) -> Any:
-    """A config value with numbers, true, false and null in place of texts that YAML reads as such.
-
-    Snakemake leaves them as texts in nested values of its option --config, such as `model={damping: 0.2}`.
-    """
-    if isinstance(value, dict):
-        return {key: parse_texts(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [parse_texts(item) for item in value]
-    if not isinstance(value, str):
-        return value
-    node = yaml.ScalarNode(SCALARS.resolve(yaml.ScalarNode, value, (True, False)), value)
-    return value if scalar_fault(node) else SCALARS.construct_object(node)

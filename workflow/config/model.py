@@ -51,5 +51,5 @@ Config = TypedDict(
         **declared("SECTIONS"),
     },
 )
-Config.__pydantic_config__ = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False)
+Config.__pydantic_config__ = ConfigDict(extra="forbid", allow_inf_nan=False)
 MODEL = TypeAdapter(Config)
