@@ -72,7 +72,10 @@ TABLE_SETTINGS = {
     "results/benchmark": benchmark_settings,
     "results/reference_check": reference_check_settings,
     "results/stability": itemgetter("stability"),
-    **dict.fromkeys(("results/stability_estimates", "results/theory"), lambda config: {"model": model_of(config)}),
+    **dict.fromkeys(
+        ("results/stability_estimates", "results/moved_impacts", "results/theory"),
+        lambda config: {"model": model_of(config)},
+    ),
     **dict.fromkeys(("results/scene_budget", "results/budget_times"), scene_budget_settings),
     "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),

@@ -301,11 +301,12 @@ def euler_error(
     converged_exponent: pd.DataFrame,
     states: pd.DataFrame,
 ) -> Finding:
-    """Median relative errors of Euler's mean velocity in both states, and share of right signs of its exponents.
+    """Median relative errors of Euler's mean velocity in both states, and share of right readings of its exponents.
 
     Velocities are compared where both methods lead to the same state with the period of the excitation. The exponents
-    are the estimates of Fig. 22. Their right sign is the sign of the exponent of the motion to which the trajectory
-    settles: positive in chaos, negative for a periodic motion.
+    are the estimates of Fig. 22, read as in the paper: a positive one means that the motion is chaotic. The reading is
+    right if the trajectory settles to chaos, and does not settle to a periodic motion. The value of the estimate is not
+    judged, because the exponent of a periodic motion is zero for a perturbation of the phase, which shifts it in time.
     """
     regular = ((converged.period == 1) & (euler.period == 1) & (converged.state == euler.state)).to_numpy()
     signed = (euler.mean_velocity / converged.mean_velocity - 1.0)[regular]
@@ -318,9 +319,10 @@ def euler_error(
         middle = f", half of them between {wrong[0].quantile(0.25):.1f} and {wrong[0].quantile(0.75):.1f} m/s²,"
     note = (
         f"Explicit Euler underestimates the mean velocity in {(signed < 0.0).sum()} of {len(signed)} runs of period 1. "
-        f"The sign of the estimate is wrong at {len(wrong[0])} of {len(known[0])} amplitudes by the paper's method"
+        "Read as in the paper, where a positive estimate means chaos, the estimate is wrong at "
+        f"{len(wrong[0])} of {len(known[0])} amplitudes by the paper's method"
         f"{middle} and at {len(wrong[1])} by the converged solution"
     )
     quantities = {"first_error": float(errors["first"]), "second_error": float(errors["second"])}
     right = 1.0 - len(wrong[0]) / len(known[0]) if len(known[0]) else NONE
-    return Finding(quantities | {"right_signs": right}, {}, note)
+    return Finding(quantities | {"right_readings": right}, {}, note)

@@ -22,7 +22,7 @@ from claims.about_states import flat_part
 from claims.verdicts import VERDICTS, describe_claims
 from conveyor import MAX_PERIOD
 from excitation import clean_drive
-from figures.caption_numbers import fig10
+from figures.caption_numbers import fig10, moved_impacts
 from figures.caption_numbers.bifurcation import accumulation
 from operating.parts import POPULATIONS, differences
 from operating.regimes import SEVERAL
@@ -89,10 +89,10 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
     Parameters
     ----------
     tables : claims, benchmark, edge, edge_euler, estimate, estimate_euler, on_plate, spectrum, cascade, certificates,
-        certified_bifurcations, certified_chaos, fit, transit, lengths and drives
+        certified_bifurcations, certified_chaos, fit, moved, transit, lengths and drives
     """
     claims = tables["claims"].set_index("id")
-    first_error, second_error, right_signs = claims.paper_method["C22"]
+    first_error, second_error, right_readings = claims.paper_method["C22"]
     return {
         "euler_positive": claims.paper_method["C19"][0],
         "converged_positive": claims.converged["C19"][0],
@@ -100,7 +100,8 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         "scatter": claims.converged["C03"][0],
         "first_error": first_error,
         "second_error": second_error,
-        "right_signs": right_signs,
+        "right_readings": right_readings,
+        "moved": moved_impacts.numbers(moved=tables["moved"]),
         "paper_two_states": claims.paper["C02"],
         "heights_aside": fig10.numbers(converged=tables["edge"], euler=tables["edge_euler"])["aside"],
         "longest_period": MAX_PERIOD,

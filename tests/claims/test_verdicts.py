@@ -383,7 +383,7 @@ def test_error_of_euler_in_regular_motion_only():
     converged = sweep(lambda a, z: "chaos" if a > 60.0 else "second")
     euler = converged.assign(mean_velocity=np.where(converged.state == "chaos", 1.0, 0.101))
     estimates = {"converged_exponent": exponents(59.0), "euler_exponent": exponents(50.0)}
-    # One motion is undecided, so that the right sign is not known there.
+    # One motion is undecided, so that the right reading is not known there.
     states = sweep(lambda a, z: "undecided" if a == 80.0 else "chaos" if a >= 61.0 else "second")
     states.loc[states.state == "undecided", "period"] = 0
     finding = about_states.euler_error(converged=converged, euler=euler, states=states, **estimates)
@@ -453,6 +453,22 @@ def perturbations():
     return table
 
 
+def moved_impacts():
+    """Runs of which impacts move in the converged solution only; larger perturbations and earlier times do not count."""
+    table = pd.DataFrame(
+        {
+            "method": ["euler", "event", "euler", "euler"],
+            "epsilon": [1e-8, 1e-8, 1e-3, 1e-8],
+            "time_shift": [3e-11, 3e-11, 3e-6, 3e-11],
+            "time": [1.0, 1.0, 1.0, 0.5],
+            "impacts": [50, 50, 50, 25],
+            "moved": [0, 50, 50, 25],
+            "mean_shift": [0.0, 1.0, 1.0, 0.0],
+        }
+    )
+    return table
+
+
 def estimates(euler, converged):
     """The tables of C19 with onsets as given."""
     return {
@@ -460,6 +476,7 @@ def estimates(euler, converged):
         "converged": exponents(converged),
         "states": sweep(lambda a, z: "chaos" if a >= 61.0 else "second"),
         "estimates": perturbations(),
+        "moved": moved_impacts(),
     }
 
 
@@ -471,6 +488,8 @@ def test_phase_estimate():
     assert "There, 100 % of these trajectories settle to a periodic motion" in finding.note
     assert "stays chaotic is 61 m/s²" in finding.note
     assert "+0.50 to +1.50 1/s by the paper's method and -9.00 to -8.00 1/s by the converged solution" in finding.note
+    assert "By the paper's method, 0 of 50 impacts move." in finding.note
+    assert "the impacts of the converged solution move by 1.000 of it" in finding.note
 
 
 def test_portraits_in_the_order_of_the_states():

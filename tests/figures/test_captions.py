@@ -70,7 +70,8 @@ def test_plateau_and_exponent_of_fig_22():
     acceleration = np.arange(20.0, 91.0)
     chaotic = acceleration >= 63.0
     estimate = pd.DataFrame({"acceleration": acceleration, "lambda": np.where(acceleration >= 59.0, 17.0, -9.0)})
-    estimate.attrs = {"epsilon": 1e-8}
+    estimate.attrs = {"epsilon": 1e-8, "step": 5e-7, "model": {"frequency": 50.0}}
+    estimate.loc[estimate.acceleration == 70.0, "lambda"] = -1.0
     spectrum = pd.DataFrame(
         {"acceleration": acceleration, "branch": "up", "lambda_1": np.where(chaotic, 36.0, -20.0), "stderr": 1.0}
     )
@@ -78,10 +79,11 @@ def test_plateau_and_exponent_of_fig_22():
     states = states.assign(period=np.where(acceleration >= 61.0, 0, 2))
     text = caption("fig22", converged=estimate, euler=estimate, spectrum=spectrum, states=states)
     assert "phases differ by 1e-8 rad. With" in text
-    assert "is positive from 59 m/s² on. The reason" in text
-    assert "is positive only from 59 m/s² on. The lowest amplitude" in text
+    assert "is positive from 59 m/s² on, with exceptions at 1 of 32 amplitudes. The part jumps there" in text
+    assert "in time by 3e-11 s only. Impacts at time steps of 5e-7 s" in text
+    assert "is positive only from 59 m/s² on, with exceptions at 1 of 32 amplitudes. On a periodic motion" in text
     assert "stays chaotic is 61" in text
-    assert "At 2 of the 32 amplitudes with a positive estimate" in text
+    assert "At 2 of the 31 amplitudes with a positive estimate" in text
     assert "The plateau of 17 1/s" in text
     assert "motion there is 36 1/s." in text
 

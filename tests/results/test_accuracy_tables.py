@@ -94,6 +94,27 @@ def test_the_paper_s_exponent_of_an_orbit_has_the_wrong_sign(result):
     assert (converged < 0.0).all()
 
 
+def test_fixed_steps_lock_the_impacts_of_fig_22(result):
+    """The mechanism that the texts name: impacts that should move by the time shift do not, and differences add up."""
+    table = result("moved_impacts")
+    rows = table[(table.epsilon == table.epsilon.min()) & (table.time == table.time.max())]
+    by_euler, converged = (rows[rows.method == method] for method in ("euler", "event"))
+    assert len(by_euler) >= 8
+    assert (by_euler.moved == 0).all()
+    assert (by_euler.difference > by_euler.epsilon).all()
+    assert (converged.moved == converged.impacts).all()
+    np.testing.assert_allclose(converged.mean_shift, 1.0, atol=1e-3)
+    assert (converged.difference < 0.1 * converged.epsilon).all()
+
+
+def test_impacts_move_if_the_time_shift_is_several_steps(result):
+    table = result("moved_impacts").query("method == 'euler' and time_shift > 5.0 * step")
+    ends = table[table.time == table.time.max()]
+    assert len(ends)
+    assert (ends.moved >= 0.95 * ends.impacts).all()
+    assert (ends.difference < 0.1 * ends.epsilon).all()
+
+
 def test_the_paper_s_exponent_of_chaos_depends_on_the_perturbation(result):
     """Soon the distance of the pair is as large as the signal: log(size/ε) over time, for any motion.
 

@@ -32,6 +32,7 @@ FACTS = {
     "estimate_euler": table("estimates/phase_euler"),
     "on_plate": table("sweeps/on_plate"),
     "fit": table("regressions/height"),
+    "moved": table("results/moved_impacts"),
     "transit": table("operating/transit"),
     "lengths": table("operating/track_lengths"),
     "drives": table("excitation/clean_drive"),
