@@ -131,11 +131,11 @@ def describe_moved_impacts(moved: pd.DataFrame) -> str:
     ends = moved[(moved.time == moved.time.max()) & (moved.epsilon == moved.epsilon.min())]
     by_euler, converged = (ends[ends.method == method] for method in ("euler", "event"))
     return (
-        f"A perturbation of {ends.epsilon.min():g} rad shifts the exact motion in time by {ends.time_shift.min():.1g} s, "
-        f"and the impacts of the converged solution move by {converged.mean_shift.mean():.3f} of it. By the paper's "
+        f"A perturbation of {ends.epsilon.min():g} rad shifts the exact motion in time by {ends.time_shift.min():.1g} "
+        f"s, and the impacts of the converged solution move by {converged.mean_shift.mean():.3f} of it. By the paper's "
         f"method, {by_euler.moved.sum()} of {by_euler.impacts.sum()} impacts move. On a periodic motion such a shift "
-        "neither grows nor decays, so that the exponent is zero; only whether the estimate is positive is judged, which "
-        "the paper reads as chaos"
+        "neither grows nor decays, so that the exponent is zero; only whether the estimate is positive is judged, "
+        "which the paper reads as chaos"
     )
 
 

@@ -454,7 +454,7 @@ def perturbations():
 
 
 def moved_impacts():
-    """Runs of which impacts move in the converged solution only; larger perturbations and earlier times do not count."""
+    """Impacts move in the converged solution only; larger perturbations and earlier times do not count."""
     table = pd.DataFrame(
         {
             "method": ["euler", "event", "euler", "euler"],
