@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor import ORDER, Run, progress_bar, simulate
-from conveyor.methods import peers
+from conveyor.methods import scipy_integrators
 from pipeline import fields, grid
 from pipeline.templates import render
 
@@ -127,7 +127,7 @@ def columns(model: dict, tolerance: float, repeats: int, *, progress: str | None
     runs = [time_run(case, case["duration"], "event")[1] for case in rows]
     eulers = [time_run(case, case["duration"], "euler")[1] for case in rows]
     truths = {
-        name: peers.run(grid.row_of(case["model"]), case["compared"], **TRUTH).mean_velocity
+        name: scipy_integrators.run(grid.row_of(case["model"]), case["compared"], **TRUTH).mean_velocity
         for name, case in cases.items()
     }
     truth = np.array([truths[case["case"]] for case in rows])

@@ -17,11 +17,11 @@ import numpy as np
 import pandas as pd
 
 from conveyor import ORDER, Run, classify, continued, conveyor_motion, parameter_table, progress_bar, simulate
-from conveyor.methods import fixed_step, modes, peers
+from conveyor.methods import fixed_step, modes, scipy_integrators
 from pipeline import fields, grid
 
 RUN = (
-    fields.text("method", "event, a fixed-step method, or another integrator"),
+    fields.text("method", "event, a fixed-step method, or an integrator of SciPy"),
     fields.text("treatment", "of impacts and slip: exact (with or without reuse), fixed step, sign, events or modes"),
     fields.number("tolerance", "1", "relative tolerance; null for fixed steps"),
     fields.number("step", "s", "time step; null for methods with a tolerance"),
@@ -51,38 +51,29 @@ SAMPLE_INTERVAL = (
 )
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13)
 STEPS = (1e-3, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7)  # s
-# Relative tolerances of other integrators, by how they treat impacts and slip reversals (conveyor.methods.peers). CyRK,
-# CVODE and heyoka run only if they are installed. SciPy takes most of the time of this table, so that its methods run
-# with as few tolerances as show their curves and failures: with `sign`, tighter tolerances take more evaluations than
-# allowed, and only `modes` is worth many tolerances.
-PEERS = {
+# Relative tolerances of SciPy's integrators, by how they treat impacts and slip reversals
+# (conveyor.methods.scipy_integrators). They take most of the time of this table, so that they run with as few
+# tolerances as show their curves and failures: with `sign`, tighter tolerances take more evaluations than allowed, and
+# only `modes` is worth many tolerances.
+SCIPY = {
     "sign": {
         "RK45": (1e-4, 1e-6),
         "DOP853": (1e-4, 1e-6, 1e-8),
         "LSODA": (1e-4, 1e-6),
-        "CyRK DOP853": (1e-4, 1e-6, 1e-8, 1e-10),
-        "CVODE Adams": (1e-4, 1e-6, 1e-8, 1e-10),
     },
     "events": {
         "RK45": (1e-4, 1e-6, 1e-8),
         "DOP853": (1e-4, 1e-6, 1e-8, 1e-11),
         "Radau": (1e-4,),
-        "CyRK DOP853": (1e-4, 1e-6, 1e-8, 1e-10),
-        "CVODE Adams": (1e-4, 1e-6, 1e-8, 1e-10),
     },
     "modes": {
         "RK45": (1e-4, 1e-6, 1e-8),
         "DOP853": (1e-4, 1e-6, 1e-8, 1e-9, 1e-11, 1e-13),
         "Radau": (1e-4, 1e-6),
         "LSODA": (1e-4, 1e-6, 1e-8),
-        "CyRK DOP853": (1e-4, 1e-6, 1e-8, 1e-9, 1e-11, 1e-13),
-        "CyRK Vern8": (1e-4, 1e-6, 1e-8, 1e-9, 1e-11, 1e-13),
-        "CVODE Adams": (1e-4, 1e-6, 1e-8, 1e-10, 1e-12),
-        "CVODE BDF": (1e-4, 1e-6, 1e-8, 1e-10, 1e-12),
-        "heyoka": (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14),
     },
 }
-MOST_EVALUATIONS = 4000  # of the force per excitation cycle of another integrator, which then gives up
+MOST_EVALUATIONS = 4000  # of the force per excitation cycle of an integrator of SciPy, which then gives up
 SECONDS = 0.1  # s of processor time, after which a run is not repeated
 TRUTH = 1e-14  # tolerance of the reference
 # Shortest turn: a fast run is repeated within it, so that the first repetition with a cold cache does not matter.
@@ -99,7 +90,7 @@ class Method(NamedTuple):
     """One run of the chart; the tolerance or the step is None."""
 
     method: str
-    treatment: str  # of impacts and slip reversals: EXACT, NO_REUSE, fixed step, or one of peers.TREATMENTS
+    treatment: str  # of impacts and slip reversals: EXACT, NO_REUSE, fixed step, or one of scipy_integrators.TREATMENTS
     tolerance: float | None
     step: float | None
 
@@ -112,7 +103,7 @@ class Result(NamedTuple):
     evaluations: int
     repeated: int  # evaluations saved by reusing the steps of a periodic motion
     status: str
-    run: Run | None  # None for another integrator
+    run: Run | None  # None for SciPy
 
 
 def methods() -> list[Method]:
@@ -121,24 +112,26 @@ def methods() -> list[Method]:
         Method("event", treatment, tolerance, None) for treatment in (EXACT, NO_REUSE) for tolerance in TOLERANCES
     ]
     listed += [Method(name, "fixed step", None, step) for name in fixed_step.METHODS for step in STEPS]
-    for treatment, integrators in PEERS.items():
+    for treatment, integrators in SCIPY.items():
         for name, tolerances in integrators.items():
             listed += [Method(name, treatment, tolerance, None) for tolerance in tolerances]
     return listed
 
 
 def most_evaluations(settings: dict) -> int:
-    """Force evaluations after which a run of another integrator is given up."""
+    """Force evaluations after which a run of SciPy is given up."""
     return round(MOST_EVALUATIONS * settings["duration"] * settings["model"]["frequency"])
 
 
 def run_method(method: Method, settings: dict) -> Result:
     """The result of a run. A Taylor step of order n counts as n force evaluations, for n derivatives of the force."""
     conveyor, start = grid.conveyor_and_start(settings["model"])
-    if method.treatment in peers.TREATMENTS:
+    if method.treatment in scipy_integrators.TREATMENTS:
         name, treatment, tolerance, _ = method
         limit = most_evaluations(settings)
-        run = peers.run(parameter_table(conveyor, start), settings["duration"], name, treatment, tolerance, limit)
+        run = scipy_integrators.run(
+            parameter_table(conveyor, start), settings["duration"], name, treatment, tolerance, limit
+        )
         return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status, None)
     accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
     reuse = method.treatment != NO_REUSE
@@ -161,7 +154,7 @@ def contact_changes(events: np.ndarray) -> np.ndarray:
 def sample_trajectory(method: Method, run: Run | None, settings: dict) -> tuple[np.ndarray, np.ndarray]:
     """x and z (m) at the fixed times, shape (n, 2), and the times (s) of impacts and separations.
 
-    run : the run of this method; None for another integrator, which then runs again
+    run : the run of this method; None for SciPy, which then runs again
     """
     times = sample_times(settings)
     if run is None:
@@ -169,7 +162,7 @@ def sample_trajectory(method: Method, run: Run | None, settings: dict) -> tuple[
         limit = 2 * most_evaluations(settings)
         name, treatment, tolerance, _ = method
         parameters = grid.row_of(settings["model"])
-        summary = peers.run(parameters, settings["duration"], name, treatment, tolerance, limit, times)
+        summary = scipy_integrators.run(parameters, settings["duration"], name, treatment, tolerance, limit, times)
         return summary.samples[:, [0, 2]], summary.events
     samples = run.sample(times)
     return np.stack([samples["x"], samples["z"]], axis=1), contact_changes(run.events)

@@ -17,7 +17,6 @@ from pathlib import Path
 
 import pandas as pd
 
-from conveyor import record_rivals
 from pipeline.rule_log import COMPILED
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -112,6 +111,5 @@ def make(
         "threads": threads,
         "costs": costs(Path(benchmarks), Path(logs)),
         "versions": versions(),
-        "rivals": record_rivals(),
     }
     return {"manifest": list_files(files, timed), "provenance": json.dumps(provenance, indent=2) + "\n"}

@@ -116,4 +116,3 @@ from .solver.record import SAMPLES
 from .solver.polynomial import ORDER
 
 # Integrators of others with which the solver is compared
-from .methods.rivals import RIVALS, record_rivals

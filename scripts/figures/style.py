@@ -41,11 +41,6 @@ METHODS = {
     "DOP853": ("#009E73", "DOP853"),
     "Radau": ("#CC79A7", "Radau"),
     "LSODA": ("#8C6D31", "LSODA"),
-    "CyRK DOP853": ("#D81B60", "CyRK DOP853"),
-    "CyRK Vern8": ("#F48FB1", "CyRK Vern8"),
-    "CVODE Adams": ("#33691E", "CVODE Adams"),
-    "CVODE BDF": ("#9CCC65", "CVODE BDF"),
-    "heyoka": ("#7A4FBF", "heyoka"),
 }
 # Colour and label of the paper's method and of the converged solution, by role of their tables.
 LOOKS = {

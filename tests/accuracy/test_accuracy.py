@@ -7,7 +7,6 @@ from project import ROOT, read_config
 
 from accuracy import benchmark, precision
 from accuracy.scenes import SCENES
-from conveyor.methods import rivals
 from conveyor.simulation import simulate
 from pipeline import grid
 
@@ -37,12 +36,12 @@ def test_benchmark_reaches_its_goals():
 
 
 def compare(scene: str, duration: float, threads: int) -> pd.DataFrame:
-    """Work and precision of the solver and of two peers, with the settings and the times as attributes."""
+    """Work and precision of the solver and of an integrator of SciPy, with the settings and the times as attributes."""
     settings = {"duration": duration, "model": CONFIG["model"] | SCENES[scene]}
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(precision, "TOLERANCES", (1e-4, 1e-8, 1e-12))
         patch.setattr(precision, "STEPS", (5e-7,))
-        patch.setattr(precision, "PEERS", {"modes": {"DOP853": (1e-4, 1e-13), "heyoka": (1e-10,)}})
+        patch.setattr(precision, "SCIPY", {"modes": {"DOP853": (1e-4, 1e-13)}})
         patch.setattr(precision, "SECONDS", 0.02)
         tables = precision.make(settings, threads)
     table = pd.DataFrame(tables["precision"])
@@ -98,12 +97,6 @@ def test_errors_of_trajectory_and_events_belong_to_the_run_of_the_method(compare
             assert np.isnan(row.event_error)
 
 
-def test_heyoka_need_not_be_installed(compared):
-    heyoka = compared[compared.method == "heyoka"].iloc[0]
-    assert heyoka.outcome == ("ok" if rivals.installed_version("heyoka") else "not installed")
-    assert heyoka.velocity_error < 1e-8 or not rivals.installed_version("heyoka")
-
-
 def test_times_belong_to_the_same_runs(compared):
     times = compared.attrs["times"]
     run = list(precision.Method._fields)
@@ -111,8 +104,7 @@ def test_times_belong_to_the_same_runs(compared):
     solver = times.method == "event"
     # A fast run is repeated until its turn ends.
     assert times.repeats[solver].min() > 2
-    others = ~solver & (compared.outcome != "not installed")
-    assert 0.0 < times.seconds[solver].max() < times.seconds[others].min()
+    assert 0.0 < times.seconds[solver].max() < times.seconds[~solver].min()
 
 
 def test_runs_take_turns_until_each_has_run_long_enough(monkeypatch):

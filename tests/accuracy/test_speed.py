@@ -27,7 +27,7 @@ def test_there_is_no_factor_if_no_run_reaches_the_error():
     assert [one.method for one in speed.factors(RUNS, 1e-15)] == ["euler"]
 
 
-def test_failures_do_not_count_as_rivals():
+def test_failures_are_not_compared():
     work = RUNS.assign(outcome=["ok", "ok", "ok", "wrong state", "ok"]).drop(columns="milliseconds")
     runs = speed.successful_runs(work, pd.DataFrame({"seconds": RUNS.milliseconds / 1e3}))
     assert speed.factors(runs)[1].method == "slow"

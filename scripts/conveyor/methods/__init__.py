@@ -1,1 +1,1 @@
-"""What the solver is compared with: fixed steps, integrators of others."""
+"""What the solver is compared with: fixed steps, SciPy."""

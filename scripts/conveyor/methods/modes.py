@@ -1,4 +1,4 @@
-"""The model for integrators of other libraries: right-hand side, events that end a mode, and the mode that follows."""
+"""The model for integrators of SciPy: right-hand side, events that end a mode, and the mode that follows."""
 
 import math
 from collections.abc import Callable
@@ -10,7 +10,9 @@ from ..solver import model, plate
 from ..solver.contact_law import coefficients_per_mass
 from ..solver.jit import compiled, compiled_inline, copy
 from .force_law import contact_acceleration, friction_acceleration, least_push, least_rub, power_of_depth
-from .leg import BACKWARD, FLIGHT, FORWARD, SIGN, STICK
+
+# The modes; SIGN is the motion without modes, in which signs switch the forces.
+SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
 
 
 @compiled_inline
@@ -119,7 +121,7 @@ ENDS: dict[int, tuple[tuple[Callable, float], ...]] = {
 
 
 def terminal_events(parameters: np.ndarray, mode: int) -> list[Callable]:
-    """The events of a mode as functions (t, state, …) that end a solve, with the attributes of scipy and CyRK."""
+    """The events of a mode as functions (t, state, …) that end a solve, with the attributes of SciPy."""
 
     def terminal(function, direction):
         def event(t, state, *_):

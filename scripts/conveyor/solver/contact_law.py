@@ -1,8 +1,9 @@
 """The contact law F_c = k_c δ^p + d_c δ̇, in every form in which the solver needs it.
 
-A change of the law begins here: `spring_and_damper` is the law itself, which fixed-step methods and peers call, too.
-`next_speed` is its part in the Taylor recurrences of the motion in the plate. The other functions are its series along
-a contact step, its rate, its energy and a bound on its tension, its linearisation, and its dimensionless groups.
+A change of the law begins here: `spring_and_damper` is the law itself, which the other methods
+call, too. `next_speed` is its part in the Taylor recurrences of the motion in the plate. The other functions are its
+series along a contact step, its rate, its energy and a bound on its tension, its linearisation, and its dimensionless
+groups.
 
 With the penetration δ = -q = w² and the time dt = w ds (a Sundman transformation) the equations of motion of a Hertz
 contact become polynomial,

@@ -10,8 +10,7 @@ STATUS = (
     "stuck at an event",
     "step too small",
     "event lost",
-    "not installed",
 )
 OK, TOO_MANY_EVENTS, TOO_STIFF, IMPACT_LOST, NOT_FINITE = range(5)
-# Of the methods in methods.peers only.
-GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_INSTALLED = range(5, 10)
+# Of SciPy's integrators only.
+GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST = range(5, 9)

@@ -4,7 +4,7 @@ import pandas as pd
 
 from accuracy import speed
 from accuracy.reference_check import DIGITS
-from figures.plots.work_precision import MISSING, NAMES, method_name
+from figures.plots.work_precision import NAMES, method_name
 
 
 def numbers(
@@ -26,7 +26,6 @@ def numbers(
     return {
         "comparisons": comparisons,
         "equal_error": speed.EQUAL_ERROR,
-        "missing": (jumping.outcome == MISSING).any(),
         "difference": reference.difference.abs().max(),
         "digits": DIGITS,
     }

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
 from accuracy import speed
-from conveyor import RIVALS
+from conveyor import FIXED_STEP_METHODS
 from figures import style
 
 # Marker and line of each treatment of events, and its name in the legend.
@@ -32,15 +32,13 @@ OUTCOMES = {
     "event lost": ("^", "event missed"),
     "not finite": ("D", "not finite"),
 }
-MISSING = "not installed"
 SMALLEST = 1e-16  # drawn error
 NAMES = {"jumping": "jumping", "riding": "always in contact", "bouncing": "micro-bounces"}  # of the scenes
 
 
 def method_name(method: str) -> str:
     """The name of a method in a sentence; methods of SciPy with their package: "SciPy's DOP853"."""
-    rival = RIVALS.get(method)
-    return f"SciPy's {method}" if rival and rival.module == "scipy" else style.METHODS[method][1]
+    return style.METHODS[method][1] if method in FIXED_STEP_METHODS else f"SciPy's {method}"
 
 
 def draw_curve(axes: Axes, rows: pd.DataFrame) -> None:
@@ -91,15 +89,9 @@ def draw_panel(axes: Axes, runs: pd.DataFrame) -> None:
     axes.grid(linewidth=0.3, color="0.9")
 
 
-def legend_handles(scenes: list[pd.DataFrame]) -> list[Line2D]:
-    """Legend handles of the methods that ran (a peer may not be installed) and of the treatments of events."""
-    everything = pd.concat(scenes)
-    ran = set(everything[everything.outcome != MISSING].method)
-    known = [
-        Line2D([], [], color=colour, linewidth=1.4, label=name)
-        for method, (colour, name) in style.METHODS.items()
-        if method in ran
-    ]
+def legend_handles() -> list[Line2D]:
+    """Legend handles of the methods and of the treatments of events."""
+    known = [Line2D([], [], color=colour, linewidth=1.4, label=name) for colour, name in style.METHODS.values()]
     treated = [
         Line2D([], [], color="0.3", marker=marker, linestyle=line, linewidth=0.6, markerfacecolor="none", label=label)
         for marker, line, label in TREATMENTS.values()
@@ -110,16 +102,9 @@ def legend_handles(scenes: list[pd.DataFrame]) -> list[Line2D]:
     return [*known, *treated, paper]
 
 
-def missing_note(scenes: list[pd.DataFrame]) -> str:
-    """A line that names the peers that are not installed; empty if all are."""
-    everything = pd.concat(scenes)
-    missing = dict.fromkeys(everything[everything.outcome == MISSING].method)
-    return f"not installed, so not shown: {', '.join(missing)}" if missing else ""
-
-
 def failing_methods(runs: pd.DataFrame) -> list[tuple[str, str]]:
     """Methods and treatments with at least one failed run, in the order of the table."""
-    failed = runs[~runs.outcome.isin(["ok", MISSING])]
+    failed = runs[runs.outcome != "ok"]
     return list(failed[["method", "treatment"]].drop_duplicates().itertuples(index=False, name=None))
 
 
@@ -155,7 +140,6 @@ def draw_failures(figure: SubFigure, scenes: dict[str, pd.DataFrame]) -> None:
         if (runs.outcome == outcome).any()
     ]
     figure.legend(handles=handles, loc="outside upper center", ncols=3, handletextpad=0.2)
-    figure.supxlabel(missing_note(list(scenes.values())), size=7.0)
 
 
 def plot(
@@ -181,6 +165,6 @@ def plot(
         axes.set_title(NAMES[name])
         axes.set_xlabel(f"processor time for {work.attrs['duration']:g} s in ms")
     panels[0].set_ylabel("error of the trajectory\nin units of the plate's motion")
-    upper.legend(handles=legend_handles(list(scenes.values())), loc="outside upper center", ncols=4)
+    upper.legend(handles=legend_handles(), loc="outside upper center", ncols=4)
     draw_failures(lower, scenes)
     return figure

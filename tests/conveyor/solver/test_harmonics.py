@@ -27,7 +27,7 @@ from conveyor import (
     transits,
 )
 from conveyor.analysis import stroboscopic_map
-from conveyor.methods import peers
+from conveyor.methods import scipy_integrators
 from conveyor.solver.model import pack
 
 DURATION = 0.04  # s; later, chaos may have amplified rounding errors
@@ -330,7 +330,7 @@ def test_orders_are_distinct():
 def test_what_cannot_take_harmonics_says_so():
     parameters = parameter_table(Conveyor(harmonics=TWO))
     for refuses in (
-        lambda: peers.run(parameters, 0.1, "DOP853", "modes", 1e-6, 1000),
+        lambda: scipy_integrators.run(parameters, 0.1, "DOP853", "modes", 1e-6, 1000),
         lambda: groups_of(parameters),
     ):
         with pytest.raises(ValueError, match="no harmonics"):

@@ -1,12 +1,10 @@
-"""Integrators of other libraries on the same model.
-
-The integrators are the methods of scipy's `solve_ivp` and, if they are installed, CyRK, CVODE of SUNDIALS and heyoka.
+"""The integrators of SciPy's `solve_ivp` on the same model.
 
 `treatment` is the way in which the jumps of the right-hand side are handled:
 
 - "sign": not at all. The sign of the gap switches the force, and the sign of the slip velocity switches friction.
-- "events": flight, slip forward, slip backward and stick each have a smooth right-hand side, and events of the
-  integrator end each mode. The next mode begins at the state of the event.
+- "events": flight, slip forward, slip backward and stick each have a smooth right-hand side, and terminal, directional
+  events of the integrator end each mode. The next mode begins at the state of the event.
 - "modes": the same, but the next mode begins beside the zero of the event, on its own side.
 
 The right-hand sides are compiled, so that methods are compared, not Python with machine code.
@@ -15,32 +13,52 @@ The right-hand sides are compiled, so that methods are compared, not Python with
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 from ..packing import as_rows, refuse_harmonics
 from ..parameters import LAST
 from ..solver import model
-from ..solver.status import GAVE_UP, NOT_FINITE, NOT_INSTALLED, OK, STATUS, STEP_TOO_SMALL, STUCK
-from . import cyrk_peer, heyoka_peer, scipy_peer, sundials_peer
-from .leg import SIGN, Failed, Leg, Task
-from .modes import ENDS, gap_of, next_mode, plate_motion, put_beside, scales
-from .rivals import RIVALS, installed_version
+from ..solver.status import EVENT_LOST, GAVE_UP, NOT_FINITE, OK, STATUS, STEP_TOO_SMALL, STUCK
+from .modes import (
+    ENDS,
+    SIGN,
+    counted_rates,
+    gap_of,
+    next_mode,
+    plate_motion,
+    put_beside,
+    scales,
+    terminal_events,
+)
 
-HEYOKA = "heyoka"
+INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA")
 TREATMENTS = ("sign", "events", "modes")
 
 # Where "modes" puts the variable of an event, in units of the plate's motion: a few rounding errors beside zero. At
 # zero or on the wrong side the integrator finds the same event again, or never again, and the part falls through.
 BESIDE = 1e-15
-# heyoka rounds differently. Nearer to the plate a contact would begin outside of it, where its force is NaN.
-BESIDE_OF_HEYOKA = 1e-13
-# m and m/s, the scale of absolute tolerances on a plate at rest, because CVODE takes no tolerance of zero.
+# m and m/s, the scale of absolute tolerances on a plate at rest, so that none is zero.
 SMALLEST_SCALE = 1e-6
 
 
-class PeerRun(NamedTuple):
+class Failed(Exception):
+    """A run does not reach its end; arguments: the code of its status, and the evaluations of its unfinished leg."""
+
+
+class Leg(NamedTuple):
+    """The motion in one mode, which ends at an event or at the end of the task, unless the integrator fails before."""
+
+    t: float  # s, where it stopped
+    state: np.ndarray  # x, ẋ, z, ż there (m, m/s), shape (4,)
+    ended: int | None  # the event that ended it, a place among modes.ENDS of the mode; None where there is none
+    samples: np.ndarray  # states at the wanted times up to `t`, shape (k, 4)
+    evaluations: int  # of the right-hand side
+
+
+class IntegratorRun(NamedTuple):
     """The result of a run; NaN if it did not reach the end."""
 
     x: float  # m
@@ -66,23 +84,37 @@ class Trajectory:
     evaluations: int = 0
     samples: list[np.ndarray] = field(default_factory=list)
     events: list[float] = field(default_factory=list)
-    solvers: dict[int, Any] = field(default_factory=dict)  # of SUNDIALS, by mode
 
 
-def leg_of(trajectory: Trajectory, task: Task) -> Leg:
-    """Follow the part in its present mode by the trajectory's integrator."""
-    parameters, mode = trajectory.parameters, trajectory.mode
-    _, module, method, _ = RIVALS[trajectory.integrator]
-    if module == "scipy":
-        return scipy_peer.follow(method, parameters, mode, task)
-    if module == "CyRK":
-        return cyrk_peer.follow(method, parameters, mode, task)
-    if module == "heyoka":
-        return heyoka_peer.follow(parameters, mode, task)
-    if mode not in trajectory.solvers:
-        whole = task._replace(limit=trajectory.limit)
-        trajectory.solvers[mode] = sundials_peer.solver_of(method, parameters, mode, whole)
-    return sundials_peer.follow(trajectory.solvers[mode], task)
+def follow(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, rtol: float, atol: np.ndarray) -> Leg:
+    """Follow the part in its present mode, from the time `begin` to `end` (s) at the latest.
+
+    Failed at the limit of evaluations, or if the interpolant of LSODA does not meet its own steps.
+    """
+    limit = trajectory.limit - trajectory.evaluations
+    counting, derivatives = np.append(trajectory.parameters, 0.0), np.empty(4)
+
+    def right_side(t, state):
+        if counting[-1] >= limit:
+            raise Failed(GAVE_UP, limit)
+        counted_rates(derivatives, t, state, counting, trajectory.mode)
+        return derivatives.copy()
+
+    times = trajectory.times[len(trajectory.samples) :]
+    options = {"method": trajectory.integrator, "rtol": rtol, "atol": atol, "dense_output": bool((times <= end).any())}
+    try:
+        # Radau's numerical Jacobian of a part that never moves sideways overflows; `run` checks the result.
+        with np.errstate(over="ignore", invalid="ignore"):
+            events = terminal_events(trajectory.parameters, trajectory.mode)
+            solution = solve_ivp(right_side, (begin, end), state, events=events, **options)
+    except ValueError as error:
+        raise Failed(EVENT_LOST, int(counting[-1])) from error
+    ended = None
+    if solution.status == 1:
+        ended = next(place for place, zeros in enumerate(solution.t_events) if len(zeros))
+    passed = times[times <= solution.t[-1]]
+    samples = solution.sol(passed).T if len(passed) else np.empty((0, 4))
+    return Leg(float(solution.t[-1]), solution.y[:, -1].copy(), ended, samples, int(counting[-1]))
 
 
 def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, treatment: str, rtol: float):
@@ -90,14 +122,11 @@ def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray,
     parameters = trajectory.parameters
     atol = rtol * np.maximum(scales(parameters), SMALLEST_SCALE)
     t, state = begin, state.copy()
-    beside = BESIDE_OF_HEYOKA if trajectory.integrator == HEYOKA else BESIDE
     if treatment != "sign" and trajectory.mode == SIGN:
         trajectory.mode = next_mode(parameters, t, state, None, SIGN)
     met = set()  # modes and states at the time t
     while t < end:
-        times = trajectory.times[len(trajectory.samples) :]
-        left = trajectory.limit - trajectory.evaluations
-        leg = leg_of(trajectory, Task(t, end, state, times[times <= end], rtol, atol, left))
+        leg = follow(trajectory, t, end, state, rtol, atol)
         trajectory.evaluations += leg.evaluations
         trajectory.samples.extend(leg.samples)
         if trajectory.evaluations >= trajectory.limit:
@@ -113,7 +142,7 @@ def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray,
                 trajectory.events.append(t)
             trajectory.mode = next_mode(parameters, t, state, ended, trajectory.mode)
             if treatment == "modes":
-                put_beside(parameters, t, state, ended, trajectory.mode, beside)
+                put_beside(parameters, t, state, ended, trajectory.mode, BESIDE)
         here = trajectory.mode, state.tobytes()
         if here in met:  # The run would not end.
             raise Failed(STUCK, 0)
@@ -129,7 +158,7 @@ def run(
     tolerance: float,
     max_evaluations: int,
     times: Sequence[float] = (),
-) -> PeerRun:
+) -> IntegratorRun:
     """Integrate one trajectory from t = 0.
 
     ValueError for an unknown integrator or treatment.
@@ -138,26 +167,22 @@ def run(
     ----------
     parameters : a row of a table
     duration : s
-    integrator : one of RIVALS
-    treatment : one of TREATMENTS; heyoka knows "modes" only
+    integrator : one of INTEGRATORS
+    treatment : one of TREATMENTS
     tolerance : relative tolerance; the absolute one is `tolerance` times `scales`
     max_evaluations : of the right-hand side, after which a run is given up
-    times : s, ascending, above 0 and within the duration, at which states are wanted: they are interpolated (CVODE
-        chooses the first step of a leg by the first of them)
+    times : s, ascending, above 0 and within the duration, at which states are wanted: they are interpolated
     """
-    if integrator not in RIVALS or treatment not in TREATMENTS:
-        raise ValueError(f"{integrator!r} with {treatment!r} is none of {tuple(RIVALS)} with {TREATMENTS}")
-    if integrator == HEYOKA and treatment != "modes":
-        raise ValueError(f"heyoka handles events by modes, not by {treatment}")
+    if integrator not in INTEGRATORS or treatment not in TREATMENTS:
+        raise ValueError(f"{integrator!r} with {treatment!r} is none of {INTEGRATORS} with {TREATMENTS}")
     refuse_harmonics(parameters, integrator)
     parameters = as_rows(parameters)
     trajectory = Trajectory(parameters, integrator, max_evaluations, np.asarray(times, dtype=np.float64))
 
-    def lost(status: int, evaluations: int) -> PeerRun:
-        return PeerRun(*(math.nan,) * 5, evaluations, STATUS[status], np.full((len(times), 4), math.nan), np.empty(0))
+    def lost(status: int, evaluations: int) -> IntegratorRun:
+        samples = np.full((len(times), 4), math.nan)
+        return IntegratorRun(*(math.nan,) * 5, evaluations, STATUS[status], samples, np.empty(0))
 
-    if installed_version(integrator) is None:
-        return lost(NOT_INSTALLED, 0)
     z0 = parameters[model.Z0]
     state = np.array([0.0, 0.0, plate_motion(parameters, 0.0)[0] if math.isnan(z0) else z0, parameters[model.VZ0]])
     middle = (1.0 - LAST) * duration
@@ -172,4 +197,4 @@ def run(
     x, vx, z, vz = map(float, after)
     mean_velocity = (x - float(before[0])) / (LAST * duration)
     samples, events = np.array(trajectory.samples).reshape(-1, 4), np.array(trajectory.events)
-    return PeerRun(x, vx, z, vz, mean_velocity, trajectory.evaluations, STATUS[OK], samples, events)
+    return IntegratorRun(x, vx, z, vz, mean_velocity, trajectory.evaluations, STATUS[OK], samples, events)
