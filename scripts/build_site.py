@@ -1,7 +1,12 @@
 """The script of the rule that makes the site: it collects pages, pictures and files, and runs Sphinx."""
 
 import os
+import sys
 import tempfile
+from pathlib import Path
+
+# Snakemake puts this folder last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from docs import site
 from pipeline.rule_log import logged

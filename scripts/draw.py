@@ -1,16 +1,19 @@
 """The script of every rule that draws a figure: read its tables, call its plot function, save the figure."""
 
 import importlib
+import sys
 from collections.abc import Mapping
+from pathlib import Path
 
-from matplotlib.figure import Figure
+# Snakemake puts this folder last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from figures import style
 from pipeline import tables
 from pipeline.rule_log import logged
 
 
-def draw(name: str, paths: Mapping[str, str], expected: Mapping[str, list], settings: dict) -> Figure:
+def draw(name: str, paths: Mapping[str, str], expected: Mapping[str, list], settings: dict) -> style.Figure:
     """Draw the figure `name` from its tables.
 
     Parameters

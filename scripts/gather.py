@@ -1,6 +1,11 @@
 """The script of the rule that joins the shards of a table in the order of their rows."""
 
+import sys
 from functools import partial
+from pathlib import Path
+
+# Snakemake puts this folder last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from pipeline import grid, tables
 from pipeline.rule_log import logged

@@ -19,6 +19,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+# Snakemake puts this folder last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
 from pipeline import fields, tables
 from pipeline.rule_log import COMPILED, logged
 

@@ -3,7 +3,6 @@
 import io
 
 import numpy as np
-from matplotlib.figure import Figure
 from PIL import Image
 
 from conveyor import Conveyor, Run, Start, conveyor_motion, simulate
@@ -24,7 +23,7 @@ def event_times(run: Run, kind: str, begin: float) -> np.ndarray:
     return times[times >= begin]
 
 
-def draw_cycle() -> Figure:
+def draw_cycle() -> style.Figure:
     """Draw flight and contact over two cycles of a settled jumping motion."""
     conveyor = Conveyor(acceleration=40.0)
     run = simulate(conveyor, JUMPING, duration=1.0)
@@ -47,7 +46,7 @@ def draw_cycle() -> Figure:
     return figure
 
 
-def draw_contact() -> Figure:
+def draw_contact() -> style.Figure:
     """Draw one contact in time and in the variables of the solver."""
     conveyor = Conveyor(acceleration=40.0)
     run = simulate(conveyor, JUMPING, duration=1.0)
@@ -71,7 +70,7 @@ def draw_contact() -> Figure:
     return figure
 
 
-def draw_friction() -> Figure:
+def draw_friction() -> style.Figure:
     """Draw slip and stick of a part that is always in contact."""
     conveyor = Conveyor(acceleration=2.0)
     run = simulate(conveyor, Start("conveyor"), duration=0.2)
@@ -88,7 +87,7 @@ def draw_friction() -> Figure:
     return figure
 
 
-def draw_states() -> Figure:
+def draw_states() -> style.Figure:
     """Draw the gap at one phase of successive cycles in the first state, the second state and chaos."""
     figure = style.figure(style.PAGE, 62.0)
     panels = figure.subplots(1, 2)
@@ -111,7 +110,7 @@ def draw_states() -> Figure:
     return figure
 
 
-def to_picture(figure: Figure) -> Image.Image:
+def to_picture(figure: style.Figure) -> Image.Image:
     """A figure as an image with the resolution of all PNG files."""
     buffer = io.BytesIO()
     style.lay_out(figure)

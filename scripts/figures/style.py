@@ -1,8 +1,13 @@
 """Style of all figures: sizes, fonts, colours, labels, and the function that saves them."""
 
+import os
 import string
 from collections.abc import Iterable
 from contextlib import AbstractContextManager
+
+# Figures are only written to files. Matplotlib reads this variable on import. It fails if the variable names a backend
+# that is not installed, as in the terminal of Jupyter.
+os.environ["MPLBACKEND"] = "agg"
 
 import matplotlib as mpl
 import numpy as np
@@ -15,8 +20,6 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, MaxNLocator, NullFormatter, NullLocator
-
-mpl.use("Agg")
 
 MM = 1.0 / 25.4
 COLUMN = 84.0  # mm, width of a column of the journal

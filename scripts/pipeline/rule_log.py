@@ -1,11 +1,14 @@
 """The log of a rule: the stderr of its script, and the traceback if it fails."""
 
+import importlib.util
 import sys
 import traceback
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
+from pathlib import Path
 from typing import TextIO
 
+SCRIPTS = Path(__file__).resolve().parents[1]  # the folder whose code the rules hash
 COMPILED = "Time to compile: "  # a line in the log of a job that compiled functions
 
 
@@ -38,6 +41,22 @@ class Tee:
         self.log.write(visible_text(self.line))
 
 
+def check_imports() -> None:
+    """Check that the packages of this project come from the folder whose code the rules hash.
+
+    Raises
+    ------
+    JobError
+        names the folder and a package that was imported from elsewhere; its tables would be taken for up to date
+    """
+    for package in sorted(path.parent for path in SCRIPTS.glob("*/__init__.py")):
+        if (origin := importlib.util.find_spec(package.name).origin) != str(package / "__init__.py"):
+            raise JobError(
+                f"this job would run {origin}, but the rules hash {package}; uninstall the package {package.name}, or "
+                "remove its folder from PYTHONPATH"
+            )
+
+
 def visible_text(line: str) -> str:
     """The text that a terminal finally shows of a line, after its last carriage return."""
     return line.rpartition("\r")[2]
@@ -53,6 +72,7 @@ def logged(path: str) -> Iterator[None]:
     with open(path, "w", encoding="utf-8") as log, closing(Tee(terminal, log)) as both:
         sys.stderr = both
         try:
+            check_imports()
             yield
         except JobError as error:
             print(error, file=both.log)

@@ -5,7 +5,6 @@ rule reruns if and only if the content of its code has changed. Imported by the 
 """
 
 import hashlib
-import platform
 import sys
 from collections.abc import Iterable
 from functools import cache
@@ -14,6 +13,8 @@ from pathlib import Path
 
 from scripts.pipeline.imports import all_imports
 
+# Without its last number: such versions only mend faults.
+PYTHON = f"{sys.version_info.major}.{sys.version_info.minor}"
 SCRIPTS = Path(__file__).resolve().parents[1]
 # Distributions whose version matters although no source imports them.
 BEHIND = {"numba": ("llvmlite",), "matplotlib": ("pillow",)}
@@ -59,9 +60,9 @@ def content(file: Path) -> bytes:
 def versions(packages: Iterable[str]) -> list[str]:
     """ "NAME==VERSION" of Python and of the distributions of all imported packages; "NAME: none" if not installed.
 
-    Any of them may change a number or a picture. The version of Python stands for the standard library.
+    Any of them may change a number or a picture.
     """
-    lines = {f"python=={platform.python_version()}"}
+    lines = {f"python=={PYTHON}"}
     for package in packages:
         if package in sys.stdlib_module_names:
             continue

@@ -1,5 +1,7 @@
 """The sources that a script depends on."""
 
+import sys
+
 import pytest
 from project import ROOT
 
@@ -121,9 +123,13 @@ def test_hash_changes_with_the_version_of_packages(scripts, monkeypatch, package
     true = source_hash.version
     monkeypatch.setattr(source_hash, "version", lambda name: "0.0" if name == package else true(name))
     if package == "python":
-        monkeypatch.setattr(source_hash.platform, "python_version", lambda: "0.0")
+        monkeypatch.setattr(source_hash, "PYTHON", "0.0")
     source_hash.source_hash.cache_clear()
     assert source_hash.source_hash("use") != before
+
+
+def test_a_patch_of_python_reruns_nothing():
+    assert f"python=={sys.version_info.major}.{sys.version_info.minor}" in source_hash.versions([])
 
 
 def test_every_package_behind_a_number_or_a_picture_counts():
