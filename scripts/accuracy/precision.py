@@ -1,8 +1,7 @@
 """Error, force evaluations and processor time of every method over its tolerances or steps, in one scene.
 
 The reference is the solver at its tightest tolerance. It is checked by an independent integration: the error of SciPy's
-DOP853 with modes at its tightest tolerance, which is one of the rows. For one scene, `reference_check` compares the
-reference with a multiprecision solution.
+DOP853 with modes at its tightest tolerance, which is one of the rows.
 
 Times differ between runs and machines. They have a table of their own, so that the main table is reproducible.
 """

@@ -56,11 +56,6 @@ def precision_settings(config: dict, scene: str) -> dict:
     return {"duration": config["precision"]["duration"], "model": {**config["model"], **SCENES[scene]}}
 
 
-def reference_check_settings(config: dict) -> dict:
-    """The scene whose reference is computed a second time: the jumping part."""
-    return precision_settings(config, "jumping")
-
-
 def scene_budget_settings(config: dict) -> dict:
     own = config["scene_budget"]
     points = {section: max(1, round(own["effort"] * count)) for section, count in BUDGETED.items()}
@@ -70,7 +65,6 @@ def scene_budget_settings(config: dict) -> dict:
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     "results/benchmark": benchmark_settings,
-    "results/reference_check": reference_check_settings,
     "results/stability": itemgetter("stability"),
     **dict.fromkeys(
         ("results/stability_estimates", "results/moved_impacts", "results/theory"),

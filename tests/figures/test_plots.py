@@ -170,15 +170,18 @@ def test_arrow_and_caption_compare_with_the_fastest_other_method(method, name):
             ("event", speed.OWN, np.nan, 1e-10, 1e-12, "ok", 1e-4),
             ("euler", "fixed step", 5e-7, np.nan, 1e-3, "ok", 0.03),
             ("euler", "fixed step", 5e-3, np.nan, 1e-1, "wrong state", 0.001),
-            (method, "modes", np.nan, 1e-10, 1e-10, "ok", 0.004),
+            (method, "events", np.nan, 1e-10, 1e-10, "ok", 0.004),
+            ("DOP853", "modes", np.nan, 1e-9, 1e-8, "ok", 0.005),
+            ("DOP853", "modes", np.nan, 1e-13, 1e-8, "ok", 0.05),
         ],
         columns=["method", "treatment", "step", "tolerance", "trajectory_error", "outcome", "seconds"],
     )
+    runs["state_error"] = [1e-12, 1e-3, 1e-1, 1e-10, 1e-9, 2e-13]
     runs.attrs["duration"] = 0.5
     scenes = {f"{scene}{kind}": runs for scene in work_precision.NAMES for kind in ("", "_times")}
     figure = work_precision.plot(**scenes)
     for axes in figure.subfigs[0].axes:
         assert [text.get_text() for text in axes.texts if "×" in text.get_text()] == ["300×", "40×"]
-    reference = pd.DataFrame({"difference": [1e-13]})
-    found = numbers(**scenes, reference=reference)["comparisons"]
-    assert [rival_name for *_, rival_name in found] == [name] * 3
+    found = numbers(**scenes)
+    assert [rival_name for *_, rival_name in found["comparisons"]] == [name] * 3
+    assert found["difference"] == 2e-13

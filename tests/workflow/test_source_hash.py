@@ -9,7 +9,6 @@ from scripts.pipeline import imports, source_hash
 
 # Stages that call functions of other stages; the budget makes the tables of figures again with other settings.
 CALLS = {
-    "accuracy/reference_check": {"accuracy/precision"},
     "accuracy/scene_budget": {
         "dimensions/portraits",
         "motion/critical",

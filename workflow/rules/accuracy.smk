@@ -45,7 +45,7 @@ rule precision:
 
 # The tables that each table of the rule `accuracy` is made from; most are made from the config alone.
 COMPARED_TABLES = {
-    **dict.fromkeys(("stability", "stability_estimates", "moved_impacts", "settling_times", "reference_check"), {}),
+    **dict.fromkeys(("stability", "stability_estimates", "moved_impacts", "settling_times"), {}),
     "map_check": {"maps": [table(f"sweeps/{name}") for name in config["map_check"]["maps"]]},
     "theory": tables_of("orbits/cascade"),
 }

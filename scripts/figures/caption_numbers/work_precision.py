@@ -3,8 +3,13 @@
 import pandas as pd
 
 from accuracy import speed
-from accuracy.reference_check import DIGITS
 from figures.plots.work_precision import NAMES, method_name
+
+
+def independent_difference(work: pd.DataFrame) -> float:
+    """Difference between the final states of the reference and of DOP853 with modes at its tightest tolerance."""
+    runs = work[(work.method == "DOP853") & (work.treatment == "modes")]
+    return float(runs.state_error[runs.tolerance.idxmin()])
 
 
 def numbers(
@@ -15,7 +20,6 @@ def numbers(
     jumping_times: pd.DataFrame,
     riding_times: pd.DataFrame,
     bouncing_times: pd.DataFrame,
-    reference: pd.DataFrame,
 ) -> dict:
     works, times = (jumping, riding, bouncing), (jumping_times, riding_times, bouncing_times)
     comparisons = []
@@ -26,6 +30,5 @@ def numbers(
     return {
         "comparisons": comparisons,
         "equal_error": speed.EQUAL_ERROR,
-        "difference": reference.difference.abs().max(),
-        "digits": DIGITS,
+        "difference": max(map(independent_difference, works)),
     }
