@@ -1,18 +1,12 @@
 """Initial heights at which the state of motion changes, over the axes of an entry of the config."""
 
+from functools import partial
+
 import numpy as np
 
-from conveyor import (
-    AttractorTable,
-    continued,
-    count_decisions,
-    find_crossings,
-    replace_parameters,
-    select_critical,
-    sweep,
-)
+from conveyor import AttractorTable, classify, continued, find_crossings, select_critical, sweep
 from pipeline import fields, grid
-from pipeline.labelling import Limits, Table, find_limits, is_slow, label_within_limits, shared_attractors
+from pipeline.labelling import search_options, shared_attractors
 
 RESOLUTION = 2e-6  # to which bisection locates a height, as a share of the scanned range: 1 nm of the range of Fig. 8
 NOT_LOCATED = "between two heights of the scan"
@@ -28,9 +22,7 @@ TABLES = {
 }
 
 
-def find_states(
-    parameters: np.ndarray, settings: dict, known: AttractorTable, limits: Limits | None, threads: int
-) -> np.ndarray:
+def find_states(parameters: np.ndarray, settings: dict, known: AttractorTable, threads: int) -> np.ndarray:
     """The state of motion that each initial condition leads to, str, shape (n,), for a table of parameters.
 
     A fixed-step method runs for the duration, as in the paper, and the converged solution continues from its end.
@@ -39,7 +31,7 @@ def find_states(
         run = {name: settings[name] for name in ("duration", "method", "step")}
         runs = sweep(parameters, needs="vertical", chunk=8, threads=threads, **run)
         parameters = continued(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
-    return label_within_limits(parameters, known, settings, limits=limits, threads=threads).state
+    return classify(parameters, attractors=known, **search_options(settings), threads=threads).state
 
 
 def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
@@ -49,17 +41,10 @@ def make(settings: dict, *, threads: int = 1) -> dict[str, np.ndarray]:
     """
     axes, parameters = grid.product(settings["axes"], settings["model"])
     heights = grid.axis_values("z0", settings["scan"])
-    known = shared_attractors(parameters, (len(parameters), len(heights)), settings, threads=threads)
-    starts = replace_parameters(np.full(len(heights), parameters[0]), z0=heights)
-    # Bisection takes searches, too.
+    known = shared_attractors(parameters, len(heights), settings, threads=threads)
     resolution = RESOLUTION * (heights[-1] - heights[0])
-    decisions = count_decisions(heights, resolution)
-    table = Table(parameters, starts, (len(parameters), decisions))
-    slow = is_slow(table, settings, known=known, threads=threads)
-    limits = find_limits(parameters, table, known, settings, threads=threads) if slow else None
-    crossings = find_crossings(
-        parameters, heights, lambda rows: find_states(rows, settings, known, limits, threads), resolution
-    )
+    decide = partial(find_states, settings=settings, known=known, threads=threads)
+    crossings = find_crossings(parameters, heights, decide, resolution)
     first_row = np.searchsorted(crossings.point, crossings.point)
     return {
         **{name: values[crossings.point] for name, values in axes.items()},

@@ -130,7 +130,7 @@ def box_of(config: dict, *more: str) -> dict:
 
 def box_settings(section: str, config: dict) -> dict:
     """A section whose initial conditions are drawn from the box of the section `operating`."""
-    limits = {key: config["solver"][key] for key in ("settling", "mean_settling")}
+    limits = {"settling": config["solver"]["settling"]}
     own = {**box_of(config, "starts", "seed", "tolerance"), **config[section], **limits}
     return {**own, "model": model_of(config, without=(*INITIAL_CONDITION, *config[section]))}
 

@@ -14,8 +14,7 @@ from conveyor.elementary import cos, sin
 from operating import regimes
 from operating.parts import IDENTICAL, population
 from pipeline import fields, grid
-from pipeline.labelling import label_starts, limit_of_mean, mean_settling
-from pipeline.sizes import WHOLE_MAP
+from pipeline.labelling import label_starts
 
 TABLES = {
     "shares": (
@@ -101,8 +100,8 @@ def velocities(
 
     Each trajectory is followed until it has settled, and then twice as long, until both mean velocities agree. They
     never agree in chaos, where the mean is taken over the longer run. On a track that is too steep for sliding friction
-    they must agree in chaos, too, because the part may be about to slide away. In all, they are followed for at most as
-    many cycles as the searches for a map; the velocities of the slowest ones are then not known.
+    they must agree in chaos, too, because the part may be about to slide away. A velocity that has not converged in the
+    last of RUNS runs is not known.
 
     parameters, labels : shape (n,), and the labels of the trajectories
     """
@@ -117,14 +116,9 @@ def velocities(
     quarter = np.maximum(np.maximum(CYCLES, np.ceil((settled + FORGOTTEN) / 3.0)), step)
     steep = regimes.steepness(parameters)
     status[steep == 2], open_ = regimes.SLIDES_AWAY, np.flatnonzero(steep < 2)
-    left = mean_settling(settings) * WHOLE_MAP
     # Every trajectory needs the second run, which contains the first; one integration gives both.
     for doublings in ([0, 1], *([doubling] for doubling in range(2, RUNS))):
         cycles = 4.0 * step[open_, None] * np.ceil(2.0 ** np.array(doublings) * (quarter / step)[open_, None])
-        if len(open_):
-            affordable = cycles[:, -1] <= limit_of_mean(cycles[:, -1], left / len(open_))
-            open_, cycles = open_[affordable], cycles[affordable]
-            left -= cycles[:, -1].sum()
         durations = cycles / parameters["frequency"][open_, None]
         means, peaks[open_], why = last_quarters(parameters[open_], durations, settings["tolerance"], threads)
         failed = why != "ok"

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from conveyor import BEGIN_OF_CYCLE, Columns, classify, follow_attractor, for_each_chunk, replace_parameters, start_at
+from conveyor import classify, follow_attractor, for_each_chunk, start_at
 from pipeline import fields, grid
-from pipeline.labelling import mean_limit
+from pipeline.labelling import search_options
 
 TABLES = {
     "strobes": (
@@ -18,29 +18,6 @@ TABLES = {
 }
 
 BRANCHES = ("up", "down")
-
-
-def label_motions(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Columns:
-    """The label of each motion in `parameters`, shape (n,), each with a conveyor of its own.
-
-    All searches together take at most as many cycles as those for a map: motions that have not settled after the mean
-    share what is left. Exponents label motions that have not settled then, too.
-    """
-    mean, most = int(mean_limit(len(parameters), settings)), settings["settling"]
-    options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
-    if mean >= most:
-        return classify(parameters, cycles=most, **options)
-    labels = classify(parameters, cycles=mean, exponents=False, **options)
-    late = np.flatnonzero(labels.cycles >= mean)
-    if len(late):
-        left = (mean * len(parameters) - int(labels.cycles.sum())) // len(late)
-        states = np.column_stack([labels.delta, labels.v])[late]
-        at_top = replace_parameters(parameters[late], psi0=BEGIN_OF_CYCLE)
-        rows = start_at(at_top, states, settings["tolerance"])
-        later = classify(rows, cycles=min(most - mean, left), **options)
-        for name, values in later.items():
-            labels[name][late] = values
-    return labels
 
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
@@ -62,7 +39,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     points, status = (np.stack(columns) for columns in zip(*swept, strict=True))
     rows = len(BRANCHES) * len(amplitudes)
     last = start_at(np.tile(upwards, 2), points[:, :, -1].reshape(rows, 2), tolerance)
-    labels = label_motions(last, settings, threads=threads, progress=progress)
+    labels = classify(last, **search_options(settings), threads=threads, progress=progress)
     return {
         "branch": np.repeat(BRANCHES, len(amplitudes) * count),
         "acceleration": np.tile(np.repeat(amplitudes, count), 2),

@@ -11,7 +11,7 @@ from ..conveyor import TANGENTIAL
 # Parameters of an initial condition, for tables that draw it from a box.
 INITIAL_CONDITION = ("psi0", "z0", "vz0")
 # Keys of the section `solver` for tables that follow motions until they settle.
-FOLLOWED = ("tolerance", "settling", "mean_settling")
+FOLLOWED = ("tolerance", "settling")
 
 
 def without_tangential(model: dict) -> dict:

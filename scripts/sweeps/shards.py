@@ -7,8 +7,9 @@ import numpy as np
 from conveyor import continued, sweep
 from pipeline import fields, grid
 from pipeline.labelling import label_entry
-from pipeline.sizes import BLOCK
 
+# Rows per block; one block takes a few hundred MB.
+BLOCK = 1 << 18
 TABLES = {
     "sweeps": (
         *fields.RESULTS,

@@ -13,7 +13,6 @@ SETTINGS = {
     "method": "event",
     "tolerance": 1.0e-8,
     "settling": 200,
-    "mean_settling": 375,
 }
 BUDGET = {
     "points": {"sweeps": 6},

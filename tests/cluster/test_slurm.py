@@ -6,11 +6,10 @@ import shlex
 
 import pytest
 import yaml
-from project import ROOT, Project, copy_project, merged, read_config
+from project import ROOT, Project, copy_project
 
 import local_slurm
-from workflow.config.entries import count_points, resolve
-from workflow.config.sharing import THREADS, seconds_of
+from workflow.config.entries import count_points
 
 GUIDE = ROOT / "docs/guides/own_sweep.md"
 OBSTACLE = local_slurm.obstacle()
@@ -18,9 +17,7 @@ pytestmark = pytest.mark.skipif(OBSTACLE is not None, reason=f"no Slurm can be s
 
 # The sweep of the guide, in three shards.
 MINE = yaml.safe_load(re.search(r"```yaml\n(.*?)```", GUIDE.read_text(), re.DOTALL)[1])
-ENTRY = resolve(merged(read_config(), MINE), "sweeps", "mine")
-ROWS = math.ceil(count_points(ENTRY["axes"]) / 3)
-OVERLAY = {**MINE, "sharing": {"job_seconds": seconds_of(ENTRY, ROWS) / THREADS}}
+OVERLAY = {**MINE, "sharing": {"rows": math.ceil(count_points(MINE["sweeps"]["mine"]["axes"]) / 3)}}
 TABLE, FIGURE = "results/sweeps/mine.parquet", "figures/fig22.pdf"
 SHARD = "rule_shards_wildcards_mine_1"  # as Snakemake names its job to Slurm
 COMPUTING = 120.0  # s

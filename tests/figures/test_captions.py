@@ -135,7 +135,7 @@ def test_a_map_states_its_undecided_share_and_the_key_that_reduces_it():
     table = pd.DataFrame({"state": ["first", "first", "undecided", "second"] * 5})
     text = caption("fig12", map=table)
     assert "The search ended before 25 % of the initial conditions had settled (undecided)." in text
-    assert text.endswith("``solver.mean_settling`` and ``solver.settling`` in the config follow them further.")
+    assert text.endswith("``solver.settling`` in the config follows them further.")
     assert "undecided" not in caption("fig12", map=table[:2])
     assert "All initial conditions lead to" not in text
     assert caption("fig12", map=table[:2]).endswith("All initial conditions lead to the first state.")
@@ -208,7 +208,7 @@ def test_the_operating_chart_says_how_many_amplitudes_a_limit_leaves_open():
     for name, tables in (("basin_stability", {}), ("operating", {"regimes": regimes})):
         text = caption(name, shares=shares, **tables)
         assert "At 2 of 3 amplitudes, the search for a state or a mean velocity ended before it was known." in text
-        assert "``solver.mean_settling``" in text
+        assert "``solver.settling``" in text
         slides = shares.assign(status=["ok", "slides away"] * 2)
         slides.attrs = shares.attrs
         assert "ended" not in caption(name, shares=slides, **tables)
@@ -270,7 +270,7 @@ def test_a_search_that_ended_early_does_not_rule_out_that_parts_climb():
     assert "Parts climb on none of these tracks." in caption("track", track=table.assign(status="ok"))
     text = caption("track", track=table.assign(status=["ok", "ok", "ok", "not all initial conditions settled"]))
     assert "At 25 % of the inclinations, the search ended before all initial conditions had settled." in text
-    assert "solver.mean_settling" in text
+    assert "solver.settling" in text
     assert "No state that was found climbs." in text and "Parts climb on none" not in text
 
 

@@ -9,14 +9,13 @@ SETTINGS = {
     "model": {"vz0": 0.0},
     "scan": {"start": 0.0, "stop": 4e-4, "num": 9},
     "settling": 2000,
-    "mean_settling": 400,
 }
 
 
 def test_changes_are_numbered_from_below_at_each_conveyor(monkeypatch):
     """At 30 m/s² the first state ends at 0.15 mm; at 40 m/s² it also returns at 0.25 mm and ends at 0.35 mm."""
 
-    def decide(rows, *_):
+    def decide(rows, **_):
         height, stripe = rows["z0"], rows["acceleration"] == 40.0
         first = (height < 1.5e-4) | (stripe & (height > 2.5e-4) & (height < 3.5e-4))
         return np.where(first, "first", "second")
@@ -33,7 +32,7 @@ def test_changes_are_numbered_from_below_at_each_conveyor(monkeypatch):
 
 
 def test_a_height_above_which_the_state_is_unknown_is_not_critical(monkeypatch):
-    def decide(rows, *_):
+    def decide(rows, **_):
         return np.where(rows["z0"] < 1.5e-4, "first", np.where(rows["acceleration"] == 40.0, "undecided", "second"))
 
     monkeypatch.setattr(critical, "find_states", decide)

@@ -11,7 +11,6 @@ SETTINGS = {
     "axes": {"acceleration": [40.0, 53.0], "z0": [-1.0e-3, 0.5e-4, 1.0e-4, 2.0e-4, 3.0e-4]},
     "model": {},
     "settling": 1000,
-    "mean_settling": 375,
 }
 
 

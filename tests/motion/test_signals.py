@@ -18,7 +18,6 @@ def settings(**others):
         "tolerance": 1e-10,
         "duration": 0.1,
         "settling": 2000,
-        "mean_settling": 375,
         **others,
     }
 

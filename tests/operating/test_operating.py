@@ -20,7 +20,6 @@ BOX = {
     **read_config("operating")["operating"],
     "starts": 64,
     "settling": 2000,
-    "mean_settling": 375,
     "model": {},
 }
 
@@ -179,31 +178,6 @@ def test_samples_of_both_first_runs_ascend(monkeypatch):
     for period in (0, 1, 100, 400):
         velocity(Conveyor(), Start(0.0), period, cycles=1)
     assert all((0.75 * durations[:, 1:] >= durations[:, :-1]).all() for durations in wanted)
-
-
-def test_velocities_take_as_many_cycles_as_a_map(monkeypatch):
-    """The velocities of the slowest motions are not known then."""
-    rows = np.stack([parameter_table(Conveyor(friction=friction), Start(3e-4)) for friction in (0.15, 0.1, 1e-3)])
-    found = Columns({"period": np.ones(3, np.int64), "cycles": np.array([20, 20, 3000])})
-    settings, counted = {**BOX, "mean_settling": 100}, []
-    monkeypatch.setattr(shares, "CYCLES", 20)
-    last_quarters = shares.last_quarters
-
-    def count(parameters, durations, *rest):
-        counted.append((durations[:, -1] * 50.0).sum())
-        return last_quarters(parameters, durations, *rest)
-
-    monkeypatch.setattr(shares, "last_quarters", count)
-    free, _, all_known = shares.velocities(rows, found, settings)
-    assert (all_known == "ok").all()
-    assert sum(counted) > 9000
-    counted.clear()
-    monkeypatch.setattr(shares, "WHOLE_MAP", 50)
-    limited, _, status = shares.velocities(rows, found, settings)
-    assert sum(counted) <= 5000
-    assert status.tolist() == ["ok", "ok", regimes.UNSETTLED]
-    assert limited[:2].tolist() == free[:2].tolist()
-    assert np.isnan(limited[2])
 
 
 def test_brief_runs_are_as_long_as_friction_needs():

@@ -15,7 +15,6 @@ SETTINGS = {
     **{key: value for key, value in read_config("operating")["operating"].items() if key != "resolution"},
     **read_config("operating")["track"],
     "settling": 2000,
-    "mean_settling": 375,
     "model": {"friction": 0.15},
 }
 

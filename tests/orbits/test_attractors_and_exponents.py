@@ -8,9 +8,8 @@ import pandas as pd
 import pytest
 from project import read_config
 
-from conveyor.analysis.attractors import labels
 from orbits import branches, exponents, seeds, strobes, witnesses
-from pipeline import grid, labelling
+from pipeline import grid
 from pipeline.rule_log import JobError
 
 MODEL = {
@@ -33,7 +32,6 @@ SETTINGS = {
     "transient": 300,
     "strobes": 16,
     "settling": 2000,
-    "mean_settling": 375,
     "tolerance": 1e-10,
     "model": MODEL,
 }
@@ -74,48 +72,6 @@ def test_witnesses_agree_on_clear_motions(tables):
     assert seen.set_index(["branch", "acceleration"]).by_exponent.to_dict() == {
         (branch, acceleration): acceleration == 80.0 for branch in ("up", "down") for acceleration in (0.0, 40.0, 80.0)
     }
-
-
-@pytest.fixture(scope="module")
-def settled():
-    """Parts at rest and in chaos, which is a transient of 1,500 to 5,000 cycles at 73 m/s², and their labels."""
-    amplitudes = np.repeat([25.0, 73.0, 80.0], [6, 6, 4])
-    rows = grid.product({"acceleration": list(amplitudes)}, MODEL)[1]
-    return rows, labels.classify(rows, cycles=SETTLED["settling"], tolerance=SETTLED["tolerance"])
-
-
-SETTLED = {"settling": 20_000, "mean_settling": 1000, "tolerance": 1e-10}
-
-
-def test_late_motions_share_the_cycles_that_early_ones_leave(monkeypatch, settled):
-    rows, wanted = settled
-    assert {"first", "second", "chaos"} <= set(wanted.state)
-    # Enough cycles for all, as the early motions need less than the mean.
-    monkeypatch.setattr(labelling, "WHOLE_MAP", len(rows))
-    enough = {**SETTLED, "mean_settling": 12_000}
-    found = strobes.label_motions(rows, enough)
-    assert found.state.tolist() == wanted.state.tolist()
-    assert found.period.tolist() == wanted.period.tolist()
-    assert strobes.label_motions(rows, {**SETTLED, "mean_settling": 20_000}).state.tolist() == wanted.state.tolist()
-
-
-def test_searches_of_many_motions_take_as_many_cycles_as_a_map(monkeypatch, settled):
-    rows, wanted = settled
-    counted = []
-    classify = labels.classify
-
-    def count(*arguments, **options):
-        found = classify(*arguments, **options)
-        counted.append(found.cycles.sum())
-        return found
-
-    monkeypatch.setattr(labelling, "WHOLE_MAP", len(rows))
-    monkeypatch.setattr(strobes, "classify", count)
-    found = strobes.label_motions(rows, SETTLED)
-    assert 0.9 * 1000 * len(rows) < sum(counted) <= 1000 * len(rows)
-    early = wanted.cycles < 1000
-    assert found.state[early].tolist() == wanted.state[early].tolist()
-    assert set(found.state[rows["acceleration"] == 80.0]) == {"chaos"}
 
 
 def test_limits_below_the_first_doubling_are_named():

@@ -7,14 +7,11 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-from project import merged, read_config
 
 from conveyor import Conveyor, Start, simulate
 from conveyor.solver.model import UNITS
 from pipeline import fields, grid, tables
 from sweeps import shards
-from workflow.config.entries import resolve
-from workflow.config.sharing import THREADS, seconds_of
 
 # The sweep of the README.
 MINE = {
@@ -58,12 +55,8 @@ MAP = {
     "method": "event",
     "tolerance": 1.0e-6,
     "settling": 1000,
-    "mean_settling": 375,
 }
 POINTS = 50
-
-
-SHORTEST = 1e-6  # s, duration of a job in which no row fits, so that only MOST_JOBS limits the number of jobs
 
 
 @pytest.fixture(scope="module")
@@ -73,8 +66,7 @@ def swept(built):
     sweeps = {"mine": MINE, "mixed": MIXED}
     whole = {"prefix": "whole", "sweeps": sweeps}
     built.under(whole).make_in_process("--cores", "2", *(f"results/whole/sweeps/{name}.parquet" for name in sweeps))
-    third = seconds_of(resolve(merged(read_config(), {"sweeps": sweeps}), "sweeps", "mixed"), 8)  # of 24 rows
-    cut = {"prefix": "cut", "sharing": {"job_seconds": third / THREADS}, "sweeps": sweeps}
+    cut = {"prefix": "cut", "sharing": {"rows": 9}, "sweeps": sweeps}  # of 24 rows
     built.under(cut).make_in_process("results/cut/sweeps/mixed.parquet")
     return lambda prefix, name: built.folder / f"results/{prefix}/sweeps/{name}.parquet"
 
@@ -116,10 +108,18 @@ def test_equal_bytes_for_any_shards_and_cores(swept):
     assert swept("whole", "mixed").read_bytes() == swept("cut", "mixed").read_bytes()
 
 
-def test_a_large_sweep_has_few_jobs(built):
-    many = {"axes": {"z0": {"start": 0.0, "stop": 1.0e-4, "num": 2001}}}
-    overlay = {"sharing": {"job_seconds": SHORTEST}, "sweeps": {"many": many}}
-    assert 400 <= built.under(overlay).planned("results/sweeps/many.parquet")["shards"] <= 500
+def test_a_sweep_has_one_job_unless_it_has_more_rows(built):
+    sweep = {"axes": {"z0": {"start": 0.0, "stop": 1.0e-4, "num": 2001}}}
+    for rows, jobs in ((2001, {"sweeps": 1}), (2000, {"shards": 2, "joined_sweeps": 1})):
+        overlay = {"sharing": {"rows": rows}, "sweeps": {"many": sweep}}
+        assert built.under(overlay).planned("results/sweeps/many.parquet") == jobs
+
+
+def test_a_shard_that_does_not_exist_is_refused_in_the_dry_run(built):
+    overlay = {"prefix": "cut", "sharing": {"rows": 9}, "sweeps": {"mixed": MIXED}}
+    run = built.under(overlay).snakemake("--dry-run", "results/cut/shards/mixed/3.parquet")
+    assert run.returncode != 0
+    assert "sweeps.mixed has no shard 3: with this config, it has 3 from 0 on" in run.stdout
 
 
 @pytest.fixture(scope="module")
@@ -176,7 +176,6 @@ def test_a_run_that_failed_has_no_state(monkeypatch):
         "model": {"acceleration": 30.0},
         "duration": 0.1,
         "settling": 2000,
-        "mean_settling": 375,
     }
     found = shards.columns(settings)
     assert (list(found["state"]), list(found["period"])) == (["first", "undecided"], [1, 0])

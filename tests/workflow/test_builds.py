@@ -65,9 +65,6 @@ def test_the_manifest_lists_all_files_except_pages_and_intermediate_tables(built
         MANIFEST,
         "docs/companion.html",
         "results/attractors/strobes.parquet",
-        "results/shards/amplitudes/0.parquet",
-        "results/shards/amplitudes_euler/0.parquet",
-        "results/shards/on_plate/0.parquet",
     }
     assert listed <= set(made(built))
 

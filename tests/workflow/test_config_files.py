@@ -114,7 +114,7 @@ def test_texts_of_numbers_are_numbers():
 
 
 def test_an_error_has_six_lines():
-    overlay = {"sharing": {"core_hours": 1.0e-6}}
+    overlay = {"sweeps": {"mine": {"axes": {name: [-9.0] for name in ("mass", "angle", "z0", "vz0", "friction")}}}}
     with pytest.raises(ConfigError, match="The config cannot be used") as error:
         load_config(DEFAULT_FILES, [], overlay)
     assert len(str(error.value).splitlines()) <= 6

@@ -28,7 +28,7 @@ def test_all_plots_after_the_style(edited):
 
 def test_simulations_after_the_contact(edited):
     project = edited("scripts/conveyor/solver/contact.py", *REMARK)
-    assert project.planned(*TARGETS) == {"shards": 2, "sweeps": 2, "estimates": 2, **PLOTS}
+    assert project.planned(*TARGETS) == {"sweeps": 2, "estimates": 2, **PLOTS}
 
 
 def test_no_labels_after_the_pairs_of_trajectories(edited):
@@ -74,7 +74,7 @@ def test_no_table_of_the_normal_motion_after_its_motion_along_the_track(copied):
     copied.under({"sweeps": sweeps}).make_in_process(table)
     along = {"friction": 0.2, "static_friction": 0.3, "phase_shift": 0.5}
     assert copied.under({"sweeps": sweeps, "model": along}).planned(table) == {}
-    assert copied.under({"sweeps": sweeps, "model": {"inclination": 0.1}}).planned(table) == {"shards": 1, "sweeps": 1}
+    assert copied.under({"sweeps": sweeps, "model": {"inclination": 0.1}}).planned(table) == {"sweeps": 1}
 
 
 @pytest.mark.parametrize(

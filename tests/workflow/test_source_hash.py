@@ -180,7 +180,6 @@ def test_plots_depend_on_no_solver():
         assert modules("draw", f"figures/plots/{figure}") == {
             "draw.py",
             "pipeline/rule_log.py",
-            "pipeline/sizes.py",
             "pipeline/tables.py",
             f"figures/plots/{figure}.py",
             "figures/style.py",

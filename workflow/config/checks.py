@@ -18,6 +18,7 @@ from .entries import (
     METHOD_SECTIONS,
     by_methods,
     count_points,
+    count_shards,
     count_values,
     ends,
     fill_defaults,
@@ -29,13 +30,13 @@ from .errors import suggest_name, type_problems
 from .files import DEFAULT_FILES, ROOT, merge, read_all
 from .model import MODEL
 from .own_conveyor import is_own_conveyor
-from .sharing import plan
 from .tables import NAMED, TABLES, entry_of, references, references_of
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
 RESERVED = {*NAMED, *(table.split("/")[0] for table in TABLES), "article", "benchmarks", "captions"}
 RESERVED |= {"checks", "claims", "docs", "logs", "runs", "sections", "shards", "site", "site_pages"}
 LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
+MOST_SHARDS = 1000  # jobs of one sweep: Snakemake takes minutes to plan more
 MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds
 # s, a multiple of all time steps of the comparison of methods (STEPS in scripts/accuracy/precision.py)
 LONGEST_STEP = 1e-3
@@ -107,16 +108,14 @@ def friction(config: dict, defaults: dict) -> Iterator[str]:
 
 
 def sweeps(config: dict, defaults: dict) -> Iterator[str]:
-    limit = config["sharing"]["core_hours"]
+    rows = config["sharing"]["rows"]
     for name, entry in config["sweeps"].items():
-        for variant in variants(name, entry).values():
-            shared = plan(config["sharing"], fill_defaults(config, "sweeps", variant))
-            if shared.core_hours > limit:
-                yield (
-                    f"sweeps.{name}.axes makes {shared.points:,} points, about {shared.core_hours:.2g} core "
-                    f"hours in {shared.shards} jobs of {shared.memory / 1000.0:.2g} GB; give a smaller num, or raise "
-                    f"sharing.core_hours = {limit:g}"
-                )
+        points, shards = count_points(entry["axes"]), count_shards(config, entry)
+        if shards > MOST_SHARDS:
+            yield (
+                f"sweeps.{name}.axes makes {points:,} rows in {shards:,} jobs; at most {MOST_SHARDS:,} are allowed: "
+                f"give a smaller num, or raise sharing.rows = {rows}"
+            )
 
 
 def steps(config: dict, defaults: dict) -> Iterator[str]:

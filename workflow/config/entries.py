@@ -58,9 +58,7 @@ def fill_defaults(config: dict, section: str, entry: dict) -> dict:
     """An entry of a section of trajectories with all settings that its table depends on."""
     solver = {key: config["solver"][key] for key in ("duration", "method", "tolerance", "step")}
     filled = {**solver, **entry}
-    if section in SETTLING:
-        filled |= {key: config["solver"][key] for key in ("settling", "mean_settling")}
-    elif entry.get("estimator", "paper") != "paper":
+    if section in SETTLING or entry.get("estimator", "paper") != "paper":
         filled["settling"] = config["solver"]["settling"]
     filled["model"] = {**config["model"], **entry.get("model", {})}
     for axis in entry.get("axes", ()):
@@ -99,3 +97,8 @@ def count_values(axis: list | dict) -> int:
 def count_points(axes: dict) -> int:
     """Number of points in the product of axes."""
     return math.prod(map(count_values, axes.values()))
+
+
+def count_shards(config: dict, entry: dict) -> int:
+    """Number of shards of a sweep, each of which one job computes."""
+    return math.ceil(count_points(entry["axes"]) / config["sharing"]["rows"])

@@ -13,7 +13,6 @@ from scripts.pipeline.settings import (
     Tolerance,
     described,
     mapping,
-    number,
     text,
     whole,
 )
@@ -26,15 +25,13 @@ class Solver(TypedDict):
     method: Method
     tolerance: Tolerance
     step: Step
-    settling: whole("an initial condition that has not settled by then may be chaotic", 256, 10**9, "excitation cycles")
-    mean_settling: whole(
-        "mean search of many initial conditions; longer searches end undecided", 64, 10**9, "excitation cycles"
+    settling: whole(
+        "limit of the search for a period; longer motions are chaos or undecided", 256, 10**9, "excitation cycles"
     )
 
 
 class Sharing(TypedDict):
-    job_seconds: number("duration of a job on two cores", "s", scaled=False, gt=0, le=1e6)
-    core_hours: number("largest estimated cost of a sweep", "h", gt=0, le=1e9)
+    rows: whole("largest number of rows of a sweep that one job computes", 1, 10**9)
 
 
 Config = TypedDict(

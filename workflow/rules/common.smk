@@ -5,9 +5,8 @@ import signal
 
 from scripts.figures.titles import title_of
 from scripts.pipeline.source_hash import source_hash
-from workflow.config.entries import ENTRIES, MEASURED_FILES, resolve
+from workflow.config.entries import ENTRIES, MEASURED_FILES, count_points, count_shards
 from workflow.config.files import DEFAULT_FILES, ROOT
-from workflow.config.sharing import THREADS, plan
 from workflow.config.tables import kind_of, references_of, settings_of
 
 # Keep pyarrow's allocator from huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more
@@ -21,6 +20,7 @@ if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
 # "" or "NAME/": a config with a prefix has its own folder of results and figures.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
 CORES = workflow.cores or 1
+THREADS = 2  # of a job with threads, so that a small machine runs it, and a large one several of them
 # The facts need all claims of the paper.
 HAS_ALL_CLAIMS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()
 
@@ -148,19 +148,34 @@ def expected(wildcards, input):
 
 # -- sweeps ------------------------------------------------------------------------------------------------------------
 
-PLANS = {name: plan(config["sharing"], resolve(config, "sweeps", name)) for name in config["sweeps"]}
+SHARDS = {name: count_shards(config, entry) for name, entry in config["sweeps"].items()}
 
 
 def shards_of_sweep(wildcards):
     """All shards, in the order of their rows."""
-    return [table(f"shards/{wildcards.name}/{shard}") for shard in range(PLANS[wildcards.name].shards)]
+    return [table(f"shards/{wildcards.name}/{shard}") for shard in range(SHARDS[wildcards.name])]
+
+
+def no_input_of_shard(wildcards):
+    """No input; an error for a shard that the sweep does not have."""
+    count = SHARDS[wildcards.name]
+    if int(wildcards.shard) >= count:
+        raise WorkflowError(
+            f"sweeps.{wildcards.name} has no shard {wildcards.shard}: with this config, it has {count} from 0 on"
+        )
+    return []
+
+
+def points_of_sweep(wildcards):
+    """Number of rows of a sweep."""
+    return count_points(config["sweeps"][wildcards.name]["axes"])
 
 
 def rows_of_shard(wildcards):
-    """First row of a shard, and the row after its last one."""
-    sweep = PLANS[wildcards.name]
-    first = int(wildcards.shard) * sweep.rows
-    return [first, min(first + sweep.rows, sweep.points)]
+    """First row of a shard, and the row after its last one. A sweep of one shard has no number of it."""
+    rows = config["sharing"]["rows"]
+    first = int(wildcards.get("shard", 0)) * rows
+    return [first, min(first + rows, points_of_sweep(wildcards))]
 
 
 # -- measured files ----------------------------------------------------------------------------------------------------
