@@ -7,15 +7,15 @@ Times differ between runs and machines. They have a table of their own, so that 
 """
 
 import math
-from collections.abc import Callable, Sequence
 from functools import partial
-from time import thread_time
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
-from conveyor import ORDER, Run, classify, continued, conveyor_motion, parameter_table, progress_bar, simulate
+from accuracy.scenes import TRUTH
+from accuracy.timing import run_in_turns
+from conveyor import ORDER, Conveyor, Run, Start, classify, continued, conveyor_motion, parameter_table, simulate
 from conveyor.methods import fixed_step, modes, scipy_integrators
 from pipeline import fields, grid
 
@@ -74,10 +74,7 @@ SCIPY = {
 }
 MOST_EVALUATIONS = 4000  # of the force per excitation cycle of an integrator of SciPy, which then gives up
 SECONDS = 0.1  # s of processor time, after which a run is not repeated
-TRUTH = 1e-14  # tolerance of the reference
-# Shortest turn: a fast run is repeated within it, so that the first repetition with a cold cache does not matter.
-TURN = 0.01  # s
-SHORT = {"duration": 1e-3}  # of runs that only compile or load the code of a method
+SHORT = 1e-3  # s, of runs that only compile or load the code of a method
 # Treatments of the event-driven solver: with and without reuse of the steps of a periodic motion.
 EXACT, NO_REUSE = "exact", "exact, nothing repeated"
 # Outcomes of runs that lead to another state of motion, or whose part is deeper in the plate than the plate's stroke.
@@ -105,10 +102,11 @@ class Result(NamedTuple):
     run: Run | None  # None for SciPy
 
 
-def methods() -> list[Method]:
-    """All runs of a scene in the order of the table."""
+def methods(default: float) -> list[Method]:
+    """All runs of a scene in the order of the table; `default` is the default tolerance of the solver."""
+    tolerances = sorted({*TOLERANCES, default}, reverse=True)
     listed = [
-        Method("event", treatment, tolerance, None) for treatment in (EXACT, NO_REUSE) for tolerance in TOLERANCES
+        Method("event", treatment, tolerance, None) for treatment in (EXACT, NO_REUSE) for tolerance in tolerances
     ]
     listed += [Method(name, "fixed step", None, step) for name in fixed_step.METHODS for step in STEPS]
     for treatment, integrators in SCIPY.items():
@@ -117,24 +115,21 @@ def methods() -> list[Method]:
     return listed
 
 
-def most_evaluations(settings: dict) -> int:
+def most_evaluations(frequency: float, duration: float) -> int:
     """Force evaluations after which a run of SciPy is given up."""
-    return round(MOST_EVALUATIONS * settings["duration"] * settings["model"]["frequency"])
+    return round(MOST_EVALUATIONS * duration * frequency)
 
 
-def run_method(method: Method, settings: dict) -> Result:
+def run_method(method: Method, conveyor: Conveyor, start: Start, duration: float) -> Result:
     """The result of a run. A Taylor step of order n counts as n force evaluations, for n derivatives of the force."""
-    conveyor, start = grid.conveyor_and_start(settings["model"])
     if method.treatment in scipy_integrators.TREATMENTS:
         name, treatment, tolerance, _ = method
-        limit = most_evaluations(settings)
-        run = scipy_integrators.run(
-            parameter_table(conveyor, start), settings["duration"], name, treatment, tolerance, limit
-        )
+        parameters, limit = parameter_table(conveyor, start), most_evaluations(conveyor.frequency, duration)
+        run = scipy_integrators.run(parameters, duration, name, treatment, tolerance, limit)
         return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status, None)
     accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
     reuse = method.treatment != NO_REUSE
-    run = simulate(conveyor, start, duration=settings["duration"], method=method.method, reuse=reuse, **accuracy)
+    run = simulate(conveyor, start, duration=duration, method=method.method, reuse=reuse, **accuracy)
     order = ORDER if method.method == "event" else 1
     end = np.array([run.vx_end, run.z_end, run.vz_end])
     return Result(run.mean_velocity(), end, order * run.work, order * run.repeats, run.status, run)
@@ -158,7 +153,7 @@ def sample_trajectory(method: Method, run: Run | None, settings: dict) -> tuple[
     times = sample_times(settings)
     if run is None:
         # Twice as many, because interpolation may need evaluations.
-        limit = 2 * most_evaluations(settings)
+        limit = 2 * most_evaluations(settings["model"]["frequency"], settings["duration"])
         name, treatment, tolerance, _ = method
         parameters = grid.row_of(settings["model"])
         summary = scipy_integrators.run(parameters, settings["duration"], name, treatment, tolerance, limit, times)
@@ -179,45 +174,27 @@ def trajectory_errors(
     return error, float(np.abs(events - truth[1]).max(initial=0.0) * settings["model"]["frequency"])
 
 
-def find_state(settings: dict, end: np.ndarray) -> str:
-    """The state of motion that a run leads to, from its `end`, shape (3,)."""
-    parameters = grid.row_of(settings["model"])[None]
-    later = continued(parameters, end[1:2], end[2:3], settings["duration"])
-    return str(classify(later).state[0])
+def find_states(settings: dict, ends: np.ndarray) -> np.ndarray:
+    """The states of motion that runs lead to, from their `ends`, shape (n, 3)."""
+    parameters = np.full(len(ends), grid.row_of(settings["model"]))
+    return classify(continued(parameters, ends[:, 1], ends[:, 2], settings["duration"])).state
 
 
-def judge_run(result: Result, error: float, settings: dict, state: str) -> str:
-    """ "ok", or the failure of a run, which its own status may not report; `state` is the right state of motion."""
-    if result.status != "ok":
-        return result.status
+def judge_runs(results: list[Result], errors: np.ndarray, truth: Result, settings: dict) -> list[str]:
+    """ "ok" for each run, or its failure, which its own status may not report.
+
+    errors : relative errors of the mean velocities, shape (n,)
+    """
     conveyor, _ = grid.conveyor_and_start(settings["model"])
     plate = conveyor_motion(conveyor, np.array([settings["duration"], 0.5 / conveyor.frequency]))["z"]
-    stroke = np.abs(plate).max()
-    if result.end[1] < plate[0] - stroke:
-        return THROUGH
-    if not error < 1.0 or find_state(settings, result.end) != state:
-        return WRONG
-    return "ok"
-
-
-def run_in_turns(
-    runs: Sequence[Callable[[], Any]], *, repeats: int, seconds: float, progress: str | None = None
-) -> tuple[list[Any], list[list[float]]]:
-    """The results of runs, and the processor times (s) of all their repetitions, in one thread.
-
-    In each of `repeats` rounds, every run has a turn unless `seconds` have been spent on it, so that a slow run is made
-    once. Runs take turns, so that other load affects all of them alike. All code must have been compiled before.
-    """
-    results: list[Any] = [None] * len(runs)
-    times: list[list[float]] = [[] for _ in runs]
-    for place in progress_bar([*range(len(runs))] * repeats, label=progress, unit="turns"):
-        spent = times[place]
-        turn_ends = min(sum(spent) + TURN, seconds)
-        while sum(spent) < turn_ends:
-            begin = thread_time()
-            results[place] = runs[place]()
-            spent.append(thread_time() - begin)
-    return results, times
+    lowest = plate[0] - np.abs(plate).max()
+    outcomes = [THROUGH if one.status == "ok" and one.end[1] < lowest else one.status for one in results]
+    ended = [place for place, outcome in enumerate(outcomes) if outcome == "ok"]
+    right, *states = find_states(settings, np.array([truth.end, *(results[place].end for place in ended)]))
+    for place, state in zip(ended, states, strict=True):
+        if not errors[place] < 1.0 or state != right:
+            outcomes[place] = WRONG
+    return outcomes
 
 
 def make(settings: dict, repeats: int, *, progress: str | None = None) -> dict[str, dict]:
@@ -226,19 +203,17 @@ def make(settings: dict, repeats: int, *, progress: str | None = None) -> dict[s
     repeats : rounds of timed runs, in each of which the methods alternate
     """
     reference_method = Method("event", NO_REUSE, TRUTH, None)
-    truth = run_method(reference_method, settings)
+    scene = grid.conveyor_and_start(settings["model"])
+    truth = run_method(reference_method, *scene, settings["duration"])
     _, *scale = modes.scales(grid.row_of(settings["model"]))
-    listed = methods()
+    listed = methods(settings["default"])
     for method in listed:
-        run_method(method, settings | SHORT)
-    runs = [partial(run_method, method, settings) for method in listed]
+        run_method(method, *scene, SHORT)
+    runs = [partial(run_method, method, *scene, settings["duration"]) for method in listed]
     results, times = run_in_turns(runs, repeats=repeats, seconds=SECONDS, progress=progress)
     run, columns = pd.DataFrame(listed), pd.DataFrame(results)
-    state = find_state(settings, truth.end)
     velocity_error = (columns.mean_velocity / truth.mean_velocity - 1.0).abs()
-    outcomes = [
-        judge_run(result, error, settings, state) for result, error in zip(results, velocity_error, strict=True)
-    ]
+    outcomes = judge_runs(results, velocity_error, truth, settings)
     reference = sample_trajectory(reference_method, truth.run, settings)
     errors = [
         trajectory_errors(method, result.run, reference, settings) if outcome == "ok" else (math.nan, math.nan)

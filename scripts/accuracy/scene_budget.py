@@ -6,16 +6,14 @@ values change visibly with tiny shifts of the initial height or with an even tig
 transients. They do not count, because the model itself makes no statement about them.
 """
 
-from collections.abc import Callable
 from functools import cache, partial
-from time import thread_time
-from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from accuracy import observables
 from accuracy.observables import SHOWN
+from accuracy.timing import run_in_turns
 from conveyor import conveyor_and_start, for_each_chunk, simulate
 from pipeline import fields, grid
 
@@ -43,8 +41,6 @@ TABLES = {
         fields.text("variant", "as in the table of budgets"),
         fields.number("tolerance", "1", "relative error of a step; null where there is none"),
         fields.number("seconds", "s", "processor time of a point"),
-        fields.number("full_seconds", "s", "processor time of a point of the full model at tight tolerance"),
-        fields.number("ratio", "1", "full_seconds over seconds"),
     ),
 }
 
@@ -58,7 +54,7 @@ CYCLES, SAMPLES = 1000, 20000
 HARDER = 1e6  # stiffness of a practically rigid part in units of the table's; its impacts are 250 times shorter
 SHIFTS = (1e-11, -1e-11, 2e-11)  # of the initial height, m: a tenth of an atom
 FEW = 10  # the share of the points with which code is loaded is 1/FEW: enough for all that many points use
-ROUNDS, ENOUGH = 3, 0.05  # most rounds of a timed run, and seconds after which it is not repeated
+REPEATS, SECONDS = 3, 0.05  # rounds of timed runs, and seconds after which a run is not repeated
 FULL, HALF, RIGID, DRAWING = "full model", "half the time", "rigid part", "drawing"
 NOTHING = {
     "table": "none",
@@ -77,19 +73,6 @@ NOTHING = {
     "chosen": True,
     "reason": None,
 }
-
-
-def least_time(work: Callable[[], Any]) -> tuple[float, Any]:
-    """The least processor time (s) of several rounds in this thread, and the result of `work`.
-
-    The least time, because other load on the machine can only add to it.
-    """
-    times = []
-    while not times or (len(times) < ROUNDS and sum(times) < ENOUGH):
-        begin = thread_time()
-        result = work()
-        times.append(thread_time() - begin)
-    return min(times), result
 
 
 def harden(model: dict) -> dict:
@@ -141,7 +124,10 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     shown.observe(settings | {"axes": observables.thin_axes(thinned, budget["points"][section] // FEW)})
     alike = observables.observe_shifted(shown, full_settings, SHIFTS)
     alike.append(shown.observe(full_settings | {"tolerance": TIGHTER}))
-    full_seconds, truth = least_time(lambda: shown.observe(full_settings))
+    variants = [(FULL, full_settings), *variants_of(section, settings)]
+    runs = [partial(shown.observe, of) for _, of in variants]
+    observed, times = run_in_turns(runs, repeats=REPEATS, seconds=SECONDS)
+    truth = observed[0]
     robust = observables.robust_values(shown, truth, alike, settings["axes"])
     work_at = cache(partial(measure_work, parameters[:: max(1, len(parameters) // 50)]))
 
@@ -159,8 +145,6 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
             "duration": np.nan if of["duration"] is None else of["duration"],
             "points": len(parameters),
             "seconds": seconds / len(parameters),
-            "full_seconds": full_seconds / len(parameters),
-            "ratio": full_seconds / seconds,
             "steps": np.nan if variant == RIGID else steps,
             "sticks": sticks,
             "known": float(robust.to_numpy().mean()) if robust.size else np.nan,
@@ -170,10 +154,10 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
             "reason": budget["reasons"].get(reference) if of is settings else None,
         }
 
-    rows = [row(FULL, full_settings, full_seconds, truth)]
-    for variant, of in variants_of(section, settings):
-        rows.append(row(variant, of, *least_time(lambda of=of: shown.observe(of))))
-    return rows
+    return [
+        row(variant, of, float(np.median(spent)), table)
+        for (variant, of), spent, table in zip(variants, times, observed, strict=True)
+    ]
 
 
 def make(

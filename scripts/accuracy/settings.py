@@ -6,7 +6,7 @@ from typing_extensions import TypedDict
 
 from ..pipeline.settings import MOST_POINTS, Duration, Effort, Line, Name, Reference, described, many, mapping, whole
 from ..pipeline.table_settings import FOLLOWED, model_of, with_model
-from .scenes import SCENES
+from .scenes import LONGEST, SCENES
 
 Repeats = whole("repetitions", 1, 10**9)
 
@@ -27,7 +27,6 @@ class MapCheck(TypedDict):
 
 
 SECTIONS = {
-    "benchmark": mapping("speed and error of the solver and of the paper's method", {"repeats": Repeats}),
     "precision": described(Precision, "error against cost of all methods"),
     "stability": mapping("limits of stability of the methods", {"effort": Effort}),
     "scene_budget": described(SceneBudget, "accuracy that each figure needs"),
@@ -48,12 +47,14 @@ BUDGETED = {
 }
 
 
-def benchmark_settings(config: dict) -> dict:
-    return {**config["benchmark"], "tolerance": config["solver"]["tolerance"], "model": model_of(config)}
-
-
 def precision_settings(config: dict, scene: str) -> dict:
-    return {"duration": config["precision"]["duration"], "model": {**config["model"], **SCENES[scene]}}
+    """The settings of a scene; `default` is the tolerance at which the solver is compared with the paper's method."""
+    duration = config["precision"]["duration"]
+    return {
+        "duration": min(duration, LONGEST.get(scene, duration)),
+        "default": config["solver"]["tolerance"],
+        "model": {**config["model"], **SCENES[scene]},
+    }
 
 
 def scene_budget_settings(config: dict) -> dict:
@@ -64,7 +65,6 @@ def scene_budget_settings(config: dict) -> dict:
 
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
-    "results/benchmark": benchmark_settings,
     "results/stability": itemgetter("stability"),
     **dict.fromkeys(
         ("results/stability_estimates", "results/moved_impacts", "results/theory"),

@@ -39,6 +39,34 @@ def paper_run(runs: pd.DataFrame) -> pd.Series:
     return runs[(runs.method == "euler") & np.isclose(runs.step, PAPER_STEP)].iloc[0]
 
 
+def independent_run(work: pd.DataFrame) -> pd.Series:
+    """The run of SciPy's DOP853 with modes at its tightest tolerance, which does not use the solver."""
+    runs = work[(work.method == "DOP853") & (work.treatment == "modes")]
+    return runs.loc[runs.tolerance.idxmin()]
+
+
+def at_default(scene: str, work: pd.DataFrame, times: pd.DataFrame) -> dict:
+    """The solver at its default tolerance, compared with the paper's run in a scene; errors of the mean velocity."""
+    timed = work.assign(milliseconds=1e3 * times.seconds)
+    default = timed[(timed.method == "event") & (timed.tolerance == work.attrs["default"])]
+    own, without, paper = (*(default[default.treatment == name].iloc[0] for name in ("exact", OWN)), paper_run(timed))
+    return {
+        "scene": scene,
+        "acceleration": work.attrs["model"]["acceleration"],
+        "z0": work.attrs["model"]["z0"],
+        "duration": work.attrs["duration"],
+        "tolerance": own.tolerance,
+        "evaluations": own.evaluations,
+        "repeated_evaluations": own.repeated_evaluations,
+        "milliseconds": own.milliseconds,
+        "paper_milliseconds": paper.milliseconds,
+        "error": own.velocity_error,
+        "paper_error": paper.velocity_error,
+        "speed": paper.milliseconds / own.milliseconds,
+        "speed_without": paper.milliseconds / without.milliseconds,
+    }
+
+
 def factors(runs: pd.DataFrame, equal_error: float = EQUAL_ERROR) -> list[Factor]:
     """The solver compared with the paper's run at its error, and with the fastest other method at `equal_error`.
 

@@ -17,6 +17,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from accuracy.scenes import SCENES
+from accuracy.speed import at_default
 from claims.about_proofs import lowest_fold, stable_motions
 from claims.about_states import flat_part
 from claims.verdicts import VERDICTS, describe_claims
@@ -60,9 +62,9 @@ def summarize_proofs(orbits: pd.DataFrame, bifurcations: pd.DataFrame, chaos: pd
     }
 
 
-def summarize_speed(benchmark: pd.DataFrame) -> dict[str, Any]:
-    """Speed and accuracy of the solver at its default tolerance."""
-    default = benchmark[benchmark.chosen == "default"]
+def summarize_speed(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
+    """Speed and accuracy of the solver at its default tolerance, in all scenes of the tables of precision."""
+    default = pd.DataFrame([at_default(scene, tables[scene], tables[f"{scene}_times"]) for scene in SCENES])
     return {
         "speeds": default.speed,
         "tolerance": default.tolerance.iloc[0],
@@ -88,8 +90,9 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
 
     Parameters
     ----------
-    tables : claims, benchmark, edge, edge_euler, estimate, estimate_euler, on_plate, spectrum, cascade, certificates,
-        certified_bifurcations, certified_chaos, fit, moved, transit, lengths and drives
+    tables : claims, errors and times of the scenes by the names SCENE and SCENE_times, edge, edge_euler, estimate,
+        estimate_euler, on_plate, spectrum, cascade, certificates, certified_bifurcations, certified_chaos, fit,
+        moved, transit, lengths and drives
     """
     claims = tables["claims"].set_index("id")
     first_error, second_error, right_readings = claims.paper_method["C22"]
@@ -110,7 +113,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         **accumulation(spectrum=tables["spectrum"], cascade=tables["cascade"]),
         **names_by_verdict(tables["claims"]),
         **summarize_proofs(tables["certificates"], tables["certified_bifurcations"], tables["certified_chaos"]),
-        **summarize_speed(tables["benchmark"]),
+        **summarize_speed(tables),
         **summarize_transit(tables["transit"], tables["lengths"]),
         "clean": clean_drive.statement_of(tables["drives"]),
     }

@@ -1,43 +1,22 @@
-"""Comparison of the solver with other methods, on the cases of the benchmark and the scenes of the config."""
+"""Comparison of the solver with other methods, on the scenes of the config."""
 
 import numpy as np
 import pandas as pd
 import pytest
 from project import ROOT, read_config
 
-from accuracy import benchmark, precision
-from accuracy.scenes import SCENES
+from accuracy import benchmark_page, precision, speed
+from accuracy.scenes import LONGEST, SCENES
 from conveyor.simulation import simulate
 from pipeline import grid
 
 CONFIG = read_config()
 
 
-def test_benchmark_reaches_its_goals():
-    cases = benchmark.CASES
-    found = benchmark.columns(CONFIG["model"], CONFIG["solver"]["tolerance"], 1)
-    assert set(found["case"][found["chosen"] == "default"]) == set(cases)
-    wanted = np.array([cases[name]["wanted"]["error"] for name in found["case"]])
-    assert (found["error"] <= wanted).all()
-    assert (found["euler_error"] > 1e4 * found["error"]).all()
-    assert (found["euler_steps"] == benchmark.DURATION / benchmark.STEP).all()
-    assert (found["steps"] < 1e-3 * found["euler_steps"]).all()
-    # Much faster than the paper's method on any machine; results/benchmark.md has the exact factor.
-    assert (found["speed"] > 10.0).all()
-    # A riding part repeats its steps, a chaotic one cannot. Repeated steps do not count as computed.
-    repeated = dict(zip(found["case"], found["repeated_steps"], strict=True))
-    assert repeated["D"] == 0 < repeated["B"]
-    template = (ROOT / "workflow/templates/benchmark.md").read_text(encoding="utf-8")
-    text = benchmark.report(template, found, 1)
-    rows = [line.split(" | ")[0] for line in text.splitlines() if line.startswith("| ") and "Case" not in line]
-    assert rows == [f"| {name}" for name in found["case"]]
-    slow = {**found, "speed": np.full(len(rows), 1.0)}
-    assert "miss a goal at the default tolerance: A (1 of" in benchmark.report(template, slow, 1)
-
-
 def compare(scene: str, duration: float, threads: int) -> pd.DataFrame:
     """Work and precision of the solver and of an integrator of SciPy, with the settings and the times as attributes."""
-    settings = {"duration": duration, "model": CONFIG["model"] | SCENES[scene]}
+    model, default = CONFIG["model"] | SCENES[scene], CONFIG["solver"]["tolerance"]
+    settings = {"duration": min(duration, LONGEST.get(scene, duration)), "default": default, "model": model}
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(precision, "TOLERANCES", (1e-4, 1e-8, 1e-12))
         patch.setattr(precision, "STEPS", (5e-7,))
@@ -49,7 +28,7 @@ def compare(scene: str, duration: float, threads: int) -> pd.DataFrame:
     return table
 
 
-@pytest.fixture(scope="module", params=["jumping", "riding", "bouncing"])
+@pytest.fixture(scope="module", params=SCENES)
 def compared(request):
     return compare(request.param, duration=1.0, threads=2)
 
@@ -62,8 +41,10 @@ def test_the_table_does_not_depend_on_threads():
 def test_solver_and_an_independent_integration_agree(compared):
     best = compared[(compared.method == "DOP853") & (compared.tolerance == 1e-13)].iloc[0]
     assert best.outcome == "ok"
-    assert best.velocity_error < 1e-11
-    assert best.state_error < 1e-11
+    # In chaos, errors grow.
+    least = 1e-9 if compared.attrs["duration"] < 1.0 else 1e-11
+    assert best.velocity_error < least
+    assert best.state_error < least
     # Between its steps, DOP853 interpolates with a lower order.
     assert best.trajectory_error < 1e-9
     assert best.event_error < 1e-9
@@ -107,23 +88,21 @@ def test_times_belong_to_the_same_runs(compared):
     assert 0.0 < times.seconds[solver].max() < times.seconds[~solver].min()
 
 
-def test_runs_take_turns_until_each_has_run_long_enough(monkeypatch):
-    clock, made = 0.0, []
-
-    def lasting(name, seconds):
-        def run():
-            nonlocal clock
-            clock += seconds
-            made.append(name)
-            return name
-
-        return run
-
-    monkeypatch.setattr(precision, "thread_time", lambda: clock)
-    monkeypatch.setattr(precision, "TURN", 0.25)
-    runs = [lasting("fast", 0.125), lasting("slow", 0.5), lasting("slowest", 2.0)]
-    found, times = precision.run_in_turns(runs, repeats=3, seconds=1.0)
-    assert found == ["fast", "slow", "slowest"]
-    fast = ["fast"] * 2
-    assert made == [*fast, "slow", "slowest", *fast, "slow", *fast]
-    assert times == [[0.125] * 6, [0.5] * 2, [2.0]]
+def test_the_page_compares_the_default_tolerance_with_the_paper_s_method(compared):
+    tables = {
+        f"{scene}{ending}": table
+        for scene in SCENES
+        for ending, table in (("", compared), ("_times", compared.attrs["times"]))
+    }
+    template = (ROOT / "workflow/templates/benchmark.md").read_text(encoding="utf-8")
+    text = benchmark_page.make(template, **tables)
+    rows = [line.split(" | ") for line in text.splitlines() if line.startswith("| ") and "Motion" not in line]
+    assert [row[0] for row in rows] == [f"| {scene}" for scene in SCENES]
+    found = speed.at_default("one", compared, compared.attrs["times"])
+    assert found["tolerance"] == CONFIG["solver"]["tolerance"]
+    assert found["error"] < 1e-8 < 1e-4 * found["paper_error"]
+    # Much faster than the paper's method on any machine; results/benchmark.md has the exact factor.
+    assert found["speed"] > 10.0
+    # A part that rides for a second repeats its steps, a chaotic one cannot. Repeated steps do not count as computed.
+    acceleration = compared.attrs["model"]["acceleration"]
+    assert (found["repeated_evaluations"] > 0) == (acceleration in (30.0, 47.0))

@@ -7,7 +7,7 @@ import pytest
 from accuracy.scene_budget import PIXELS
 from made import RESULTS, ROOT
 
-SCENES = ("jumping", "riding", "bouncing")
+SCENES = ("jumping", "riding", "bouncing", "chaotic")
 
 
 def test_solver_is_right_at_every_tolerance(result):

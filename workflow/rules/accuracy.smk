@@ -3,23 +3,10 @@
 from scripts.accuracy import scenes
 from workflow.config.tables import budgeted_entries, budgeted_tables
 
-
-rule benchmark:
-    input:
-        template=source("workflow/templates/benchmark.md"),
-    output:
-        benchmark=table("results/benchmark"),
-        report=result("benchmark.md"),
-    log:
-        log_file("accuracy/benchmark"),
-    benchmark:
-        benchmark_file("accuracy/benchmark")
-    params:
-        **stage("accuracy.benchmark", "results/benchmark"),
-    message:
-        "The solver compared with the paper's method"
-    script:
-        "../../scripts/make.py"
+# The tables of errors and of times, by scene.
+PRECISION = {
+    f"{scene}{ending}": table(f"precision{ending}/{scene}") for scene in scenes.SCENES for ending in ("", "_times")
+}
 
 
 # These jobs start early, because each scene keeps one core busy for a long time.
@@ -39,6 +26,24 @@ rule precision:
         repeats=config["precision"]["repeats"],
     message:
         "Error and work of all methods, {wildcards.name}"
+    script:
+        "../../scripts/make.py"
+
+
+rule benchmark:
+    input:
+        **PRECISION,
+        template=source("workflow/templates/benchmark.md"),
+    output:
+        result("benchmark.md"),
+    log:
+        log_file("accuracy/benchmark"),
+    benchmark:
+        benchmark_file("accuracy/benchmark")
+    params:
+        **stage("accuracy.benchmark_page"),
+    message:
+        "The solver compared with the paper's method"
     script:
         "../../scripts/make.py"
 

@@ -17,7 +17,7 @@ BUILT_TABLES = sorted(
 )
 BUILT_FILES = [
     *map(table, BUILT_TABLES),
-    *([result("benchmark.md")] if "results/benchmark" in BUILT_TABLES else []),
+    *([result("benchmark.md")] if RESULT_TESTS else []),
     result("claims.md"),
     *caption_files(),
     *figure_files(),
@@ -25,7 +25,7 @@ BUILT_FILES = [
 ]
 BUILD_RECORDS = [result("manifest.sha256"), result("provenance.json")]
 # Kinds of tables with measured times, which differ from build to build, and the figures that are drawn from them.
-TIMED = {"benchmark", "precision_times", "certificate_times", "budget_times"}
+TIMED = {"precision_times", "certificate_times", "budget_times"}
 TIMED_FIGURES = [name for name, entry in config["figures"].items() if TIMED & {*map(kind_of, entry["tables"].values())}]
 
 

@@ -24,7 +24,8 @@ PAGES = {
 }
 # The tables behind the facts, by their roles in scripts/docs/facts.py.
 FACTS = {
-    **tables_of("results/claims", "results/benchmark", "lyapunov/spectrum", "orbits/cascade"),
+    **tables_of("results/claims", "lyapunov/spectrum", "orbits/cascade"),
+    **PRECISION,
     **PAGES["certificates"],
     "edge": table("critical/edge"),
     "edge_euler": table("critical/edge_euler"),

@@ -6,12 +6,6 @@ from accuracy import speed
 from figures.plots.work_precision import NAMES, method_name
 
 
-def independent_difference(work: pd.DataFrame) -> float:
-    """Difference between the final states of the reference and of DOP853 with modes at its tightest tolerance."""
-    runs = work[(work.method == "DOP853") & (work.treatment == "modes")]
-    return float(runs.state_error[runs.tolerance.idxmin()])
-
-
 def numbers(
     *,
     jumping: pd.DataFrame,
@@ -30,5 +24,5 @@ def numbers(
     return {
         "comparisons": comparisons,
         "equal_error": speed.EQUAL_ERROR,
-        "difference": max(map(independent_difference, works)),
+        "difference": max(speed.independent_run(work).state_error for work in works),
     }

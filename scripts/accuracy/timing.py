@@ -1,0 +1,30 @@
+"""Processor times of runs that are compared with each other."""
+
+from collections.abc import Callable, Sequence
+from time import thread_time
+from typing import Any
+
+from conveyor import progress_bar
+
+# Shortest turn: a fast run is repeated within it, so that the first repetition with a cold cache does not matter.
+TURN = 0.01  # s
+
+
+def run_in_turns(
+    runs: Sequence[Callable[[], Any]], *, repeats: int, seconds: float, progress: str | None = None
+) -> tuple[list[Any], list[list[float]]]:
+    """The results of runs, and the processor times (s) of all their repetitions, in one thread.
+
+    In each of `repeats` rounds, every run has a turn unless `seconds` have been spent on it, so that a slow run is made
+    once. Runs take turns, so that other load affects all of them alike. All code must have been compiled before.
+    """
+    results: list[Any] = [None] * len(runs)
+    times: list[list[float]] = [[] for _ in runs]
+    for place in progress_bar([*range(len(runs))] * repeats, label=progress, unit="turns"):
+        spent = times[place]
+        turn_ends = min(sum(spent) + TURN, seconds)
+        while sum(spent) < turn_ends:
+            begin = thread_time()
+            results[place] = runs[place]()
+            spent.append(thread_time() - begin)
+    return results, times
