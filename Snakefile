@@ -5,7 +5,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 try:
-    from workflow.config import ConfigError, announce, load_config
+    from workflow.config import ConfigError, load_config
     from workflow.config.files import DEFAULT_FILES, ROOT
 except ModuleNotFoundError as error:
     if error.name.partition(".")[0] != "workflow":
@@ -23,7 +23,7 @@ configfile: str(ROOT / "config/config.yaml")
 OVERLAYS = []
 if Path(workflow.main_snakefile).resolve().is_relative_to(ROOT):
     OVERLAYS = [os.path.relpath(file) for file in workflow.overwrite_configfiles]
-    # Without the default values of `configfile:`, which would count as given by the user and would not be scaled.
+    # Without the default values of `configfile:`, which load_config reads itself.
     config = dict(workflow.config_settings.config)
 
 try:
@@ -31,9 +31,7 @@ try:
 except ConfigError as error:
     raise WorkflowError(str(error))
 config = loaded.config
-PAPER, OWN_CONVEYOR = loaded.paper, loaded.own_conveyor
-if loaded.notice and workflow.is_main_process:
-    announce(loaded.notice)
+IS_PAPER = loaded.is_paper
 
 
 report: "workflow/report/workflow.rst"
@@ -59,15 +57,43 @@ include: "workflow/rules/docs.smk"
 include: "workflow/rules/builds.smk"
 
 
+rule paper:
+    input:
+        figure_files(PAPER_FIGURES),
+        caption_files(PAPER_FIGURES),
+        CLAIM_FILES,
+    localrule: True
+    message:
+        "The figures of the paper and its claims are up to date"
+
+
+rule machine:
+    input:
+        MACHINE_FILES,
+        EXCITATION_FILES,
+        CALIBRATION_FILES,
+    localrule: True
+    message:
+        "The answers for this machine are up to date"
+
+
+rule study:
+    input:
+        figure_files(STUDY_FIGURES),
+        caption_files(STUDY_FIGURES),
+    localrule: True
+    message:
+        "The figures about methods are up to date"
+
+
+# All that this config has. Of another conveyor, figures and claims of the paper are made by name only.
 rule all:
     default_target: True
     input:
-        figure_files(),
+        [figure_files(), caption_files(), CLAIM_FILES, BUILD_RECORDS] if IS_PAPER else [],
+        MACHINE_FILES,
         EXCITATION_FILES,
         CALIBRATION_FILES,
-        caption_files(),
-        CLAIM_FILES,
-        BUILD_RECORDS,
     localrule: True
     message:
-        "All figures and claims are up to date"
+        "All files of this config are up to date"

@@ -1,7 +1,8 @@
-"""Captions of all figures: numbers from the tables that the figures draw, filled into their templates.
+"""The caption of a figure: numbers from the tables that the figures draw, filled into their templates.
 
-The text is in plots/NAME.rst, behind the title. Its fields are the tables and settings of the figure, and the numbers
-that caption_numbers/NAME.py computes, if there is such a module.
+The text is in plots/NAME.rst, behind the title. A second paragraph is a remark on the paper's conveyor, which other
+conveyors do not get. Fields are the tables and settings of the figure, and the numbers that caption_numbers/NAME.py
+computes, if there is such a module.
 """
 
 import importlib.util
@@ -30,9 +31,12 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
         function = importlib.import_module(module).numbers
         parameters = inspect.signature(function).parameters
         numbers = function(**{name: values[name] for name in parameters if name in values})
+    template, _, remark = template.partition("\n\n")
+    if paper and remark:
+        template = f"{template.rstrip()} {remark}"
     conveyor = "the paper's conveyor" if paper else "this conveyor"
     models = [table.attrs["model"] for table in tables.values() if "friction" in table.attrs.get("model", {})]
-    about = {"paper": paper, "conveyor": conveyor, "slides": any(map(is_steep, models))}
+    about = {"conveyor": conveyor, "slides": any(map(is_steep, models))}
     try:
         text = render(template, values | numbers | about)
     except Exception as error:
@@ -44,22 +48,14 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
     return text
 
 
-def make(
-    figures: dict[str, dict], paper: bool, references: list[str], read: list[pd.DataFrame], templates: list[str]
-) -> list[str]:
-    """The captions of all figures, in order.
+def make(figure: str, settings: dict, paper: bool, template: str, **tables: pd.DataFrame) -> str:
+    """The caption of a figure.
 
     Parameters
     ----------
-    figures : entries of the config
-    paper : whether the figures show the paper's conveyor
-    references, read : names of the tables, SECTION/NAME, and the tables
-    templates : one per figure, each with its title
+    settings : of the figure
+    paper : whether the figure shows the paper's conveyor
+    template : with the title
+    tables : by their roles
     """
-    tables_by_name = dict(zip(references, read, strict=True))
-    captions = []
-    for (name, entry), template in zip(figures.items(), templates, strict=True):
-        roles = {**entry["tables"], **entry.get("caption_tables", {})}
-        tables = {role: tables_by_name[reference] for role, reference in roles.items()}
-        captions.append(caption(split_title(template)[1], name, tables, entry.get("settings", {}), paper))
-    return captions
+    return caption(split_title(template)[1], figure, tables, settings, paper)

@@ -25,21 +25,25 @@ Portrait = Annotated[tuple[Acceleration, HeightNumber], Strict(False), AfterVali
 class FigureSettings(TypedDict, total=False):
     acceleration: Acceleration
     z0: HeightNumber
+    portraits: described(list[Portrait], "three phase portraits", min_length=3, max_length=3)
+    longest_period: Period
+
+
+class Marks(TypedDict, total=False):
     critical_acceleration: Acceleration
     critical_height: HeightNumber
     two_states: interval(Acceleration, "interval with two states of motion")
     first_positive: Acceleration
-    portraits: described(list[Portrait], "three phase portraits", min_length=3, max_length=3)
-    longest_period: Period
     paper_error: number("error of the paper's fit", "m²", gt=0, le=1)
+    paper_fit: described(bool, "draw Eq. 13 with the paper's coefficients")
 
 
 class Figure(TypedDict):
     section: described(Line, "section of the paper")
-    paper_only: NotRequired[described(Line, "why only the paper's conveyor has this figure")]
     needs: word("motion that the figure needs", "feeding", "vertical", "nothing")
     tables: entries(Reference, "tables by the roles that the plot script knows")
     settings: NotRequired[described(FigureSettings, "numbers that the plot script draws")]
+    marks: NotRequired[described(Marks, "numbers of the paper, drawn if the model is the paper's")]
     caption_tables: NotRequired[entries(Reference, "further tables of the caption")]
 
 

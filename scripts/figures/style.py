@@ -95,11 +95,6 @@ def figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width * MM, height * MM))
 
 
-def drop_missing(**tables: pd.DataFrame | None) -> dict[str, pd.DataFrame]:
-    """The tables by role, without missing ones: a config for another conveyor may have no table by explicit Euler."""
-    return {role: table for role, table in tables.items() if table is not None}
-
-
 def method_panels(figure: Figure, tables: dict[str, pd.DataFrame], xlabel: str, ylabel: str) -> list[Axes]:
     """Panels side by side, one per method, with common scales, titles and axis labels; `tables` are keyed by role."""
     panels = figure.subplots(1, len(tables), sharex=True, sharey=True, squeeze=False)[0]

@@ -53,8 +53,8 @@ class Parts(TypedDict):
 
 class Transit(TypedDict):
     acceleration: Accelerations
-    length: number("length of the track", "m", scaled=False, ge=1e-3, le=1e4)
-    longest: number("time after which a part is late", "s", scaled=False, gt=0, le=1e5)
+    length: number("length of the track", "m", ge=1e-3, le=1e4)
+    longest: number("time after which a part is late", "s", gt=0, le=1e5)
     parts: whole("parts with random initial conditions per amplitude", 8, 10**6)
 
 
@@ -67,7 +67,7 @@ class Advice(TypedDict):
             for name in ("angle", "frequency", "friction", "inclination", "phase_shift")
         },
     )
-    part_length: NotRequired[number("length of a part in the feeding direction", "m", scaled=False, gt=0, le=10)]
+    part_length: NotRequired[number("length of a part in the feeding direction", "m", gt=0, le=10)]
 
 
 class Throws(TypedDict):

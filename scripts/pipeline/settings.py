@@ -25,13 +25,9 @@ MOST_POINTS = 1_000_000  # of one axis
 NAME = rf"[A-Za-z][A-Za-z0-9_-]{{0,{LONGEST_NAME - 1}}}"
 
 
-def number(description: str, unit: str = "", *, scaled: bool = True, **bounds: float) -> Any:
-    """A number with a unit and the bounds ge, gt, le, lt.
-
-    `scaled` says whether it follows the scales of another conveyor; the length of a track, for example, does not.
-    """
-    extra = ({"unit": unit} if unit else {}) | ({} if scaled else {"scaled": False})
-    field = Field(description=description, json_schema_extra=extra, **bounds)
+def number(description: str, unit: str = "", **bounds: float) -> Any:
+    """A number with a unit and the bounds ge, gt, le, lt."""
+    field = Field(description=description, json_schema_extra={"unit": unit} if unit else None, **bounds)
     return Annotated[float, field, BeforeValidator(refuse_truth)]
 
 

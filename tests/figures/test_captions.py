@@ -78,12 +78,12 @@ def test_plateau_and_exponent_of_fig_22():
     states = pd.DataFrame({"acceleration": acceleration, "state": np.where(acceleration >= 61.0, "chaos", "first")})
     states = states.assign(period=np.where(acceleration >= 61.0, 0, 2))
     text = caption("fig22", converged=estimate, euler=estimate, spectrum=spectrum, states=states)
-    assert "phases differ by 1e-8 rad. With" in text
+    assert "phases differ by 1e-8 rad, by the paper's method" in text
     assert "is positive from 59 m/s² on, with exceptions at 1 of 32 amplitudes. The part jumps there" in text
     assert "in time by 3e-11 s only. Impacts at time steps of 5e-7 s" in text
     assert "is positive only from 59 m/s² on, with exceptions at 1 of 32 amplitudes. On a periodic motion" in text
     assert "stays chaotic is 61" in text
-    assert "At 2 of the 31 amplitudes with a positive estimate" in text
+    assert "at 2 of the 31 amplitudes with a positive estimate" in text
     assert "The plateau of 17 1/s" in text
     assert "motion there is 36 1/s." in text
 
@@ -133,12 +133,12 @@ def test_tables_with_a_visible_variant_count_once():
 
 def test_a_map_states_its_undecided_share_and_the_key_that_reduces_it():
     table = pd.DataFrame({"state": ["first", "first", "undecided", "second"] * 5})
-    text = caption("fig12", map=table)
+    text = caption("fig12", paper=False, map=table)
     assert "The search ended before 25 % of the initial conditions had settled (undecided)." in text
     assert text.endswith("``solver.settling`` in the config follows them further.")
     assert "undecided" not in caption("fig12", map=table[:2])
     assert "All initial conditions lead to" not in text
-    assert caption("fig12", map=table[:2]).endswith("All initial conditions lead to the first state.")
+    assert caption("fig12", paper=False, map=table[:2]).endswith("All initial conditions lead to the first state.")
     none = caption("fig12", map=table[:2].assign(state="undecided"))
     assert "lead to" not in none and "before 100 % of the initial conditions" in none
 
@@ -162,7 +162,8 @@ def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
     assert "At 2 amplitudes, the search ended before the state of motion was known for all heights." in " ".join(
         text.split()
     )
-    tables = {"converged": converged[:0], "fit": converged[:0]}
+    tables |= {"converged": converged[:0], "fit": converged[:0]}
+    tables["converged"].attrs = converged.attrs
     text = captions.caption(template, "fig10", tables, {}, paper=False)
     assert "Up to 0.5 mm, no initial height was found to change the state of motion at any of these amplitudes." in text
     tables["converged"] = converged.assign(is_critical=False)
@@ -176,9 +177,9 @@ def test_a_track_that_is_too_steep_is_named():
     table = pd.DataFrame({"z0": [0.0], "mean_velocity": [-0.3], "state": "first"})
     for inclination, static, steep in ((0.2, None, False), (0.32, None, True), (0.32, 0.4, True), (-0.5, 0.4, True)):
         model = {"friction": 0.3, "inclination": inclination} | ({"static_friction": static} if static else {})
-        table.attrs |= {"model": model, "duration": 1.0}
+        table.attrs |= {"model": model, "duration": 1.0, "step": 1e-6}
         template = template_of("fig03")
-        text = captions.caption(template, "fig03", {"converged": table}, {}, paper=False)
+        text = captions.caption(template, "fig03", {"converged": table, "euler": table}, {}, paper=False)
         assert ("slides away faster and faster" in " ".join(text.split())) == steep
 
 

@@ -13,8 +13,6 @@ from pipeline.templates import ENVIRONMENT
 
 CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
-# Settings that mark a number of the paper; other conveyors do not have them.
-PAPER_MARKS = {"critical_acceleration", "critical_height", "first_positive", "two_states"}
 
 
 def names(entry, keys=("tables", "settings")):
@@ -25,18 +23,16 @@ def names(entry, keys=("tables", "settings")):
 def test_a_plot_takes_the_tables_and_settings_of_its_figure(figure):
     entry = FIGURES[figure]
     plot = importlib.import_module(f"figures.plots.{figure}").plot
-    given = names(entry)
+    given = names(entry, ("tables", "settings", "marks"))
     assert len(given) == len(set(given)), "a table and a setting share a name"
     inspect.signature(plot).bind(**dict.fromkeys(given))
 
 
-@pytest.mark.parametrize("figure", [name for name, entry in FIGURES.items() if "paper_only" not in entry])
-def test_a_plot_works_without_the_published_method_and_the_papers_marks(figure):
-    entry = FIGURES[figure]
-    tables = [role for role, reference in entry["tables"].items() if not reference.endswith("_euler")]
-    settings = [name for name in entry.get("settings", {}) if name not in PAPER_MARKS]
+@pytest.mark.parametrize("figure", FIGURES)
+def test_a_plot_works_without_the_papers_marks(figure):
+    """Figures of other conveyors have none."""
     plot = importlib.import_module(f"figures.plots.{figure}").plot
-    inspect.signature(plot).bind(**dict.fromkeys([*tables, *settings]))
+    inspect.signature(plot).bind(**dict.fromkeys(names(FIGURES[figure])))
 
 
 @pytest.mark.parametrize("figure", FIGURES)
@@ -47,7 +43,7 @@ def test_the_values_of_a_caption_exist(figure):
     given = names(FIGURES[figure], ("tables", "caption_tables", "settings"))
     module = f"figures.caption_numbers.{figure}"
     if not importlib.util.find_spec(module):
-        assert wanted <= {"paper", "conveyor", "slides", *given}, "the caption needs a module in caption_numbers"
+        assert wanted <= {"conveyor", "slides", *given}, "the caption needs a module in caption_numbers"
         return
     parameters = inspect.signature(importlib.import_module(module).numbers).parameters
     assert {name for name, one in parameters.items() if one.default is one.empty} <= set(given)

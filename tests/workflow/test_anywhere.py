@@ -71,7 +71,7 @@ def test_some_rules_of_the_module(tmp_path):
     assert dict(re.findall(r"^(\w+) +(\d)$", stdout, re.MULTILINE)) == {"motion": "2", "plot": "1", "total": "3"}
 
 
-@pytest.mark.parametrize("rule", ["caption_on_request", "all"])
+@pytest.mark.parametrize("rule", ["caption", "all"])
 def test_a_rule_of_the_module_works_alone(tmp_path, rule):
     """Also if it resembles another rule, or needs files of other rules."""
     (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + f"use rule {rule} from conveyor")

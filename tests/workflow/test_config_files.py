@@ -84,8 +84,7 @@ def test_keys_are_in_the_order_of_the_first_file(tmp_path):
 def test_a_config_is_loaded_from_any_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     loaded = load_config(DEFAULT_FILES, [], {})
-    assert loaded.paper == read_config()
-    assert not loaded.own_conveyor
+    assert loaded.is_paper
     assert "amplitudes_euler" in loaded.config["sweeps"]
 
 
@@ -96,8 +95,7 @@ def test_a_config_without_files_is_the_overlay_of_a_module(tmp_path):
     file.write_text(yaml.safe_dump(overlay))
     loaded = load_config(DEFAULT_FILES, [], overlay)
     assert repr(loaded) == repr(load_config(DEFAULT_FILES, [file], overlay))
-    assert loaded.own_conveyor
-    assert "fig04" not in loaded.config["figures"]
+    assert not loaded.is_paper
     assert loaded.config["sweeps"]["one"] == {"axes": {"z0": [0.0]}}
 
 
@@ -218,22 +216,11 @@ def test_nested_values_of_the_command_line_are_an_overlay(project, tmp_path):
     assert settings["axes"]["z0"] == [0.0, 1.0e-4]
 
 
-def test_a_run_of_another_conveyor_says_first_what_was_scaled_and_dropped(project, tmp_path):
-    """Half the period, a quarter of the height: the velocities are half as large."""
-    file = tmp_path / "fast.yaml"
-    file.write_text("prefix: fast\nmodel: {frequency: 100.0}\n")
-    run = project.called("--dry-run", "figures/fast/operating.pdf", "--configfile", str(file))
-    (notice,) = [line for line in run.stdout.splitlines() if line.startswith("fast is a conveyor other than")]
-    assert "heights × 0.25, velocities × 0.5, times × 0.5" in notice
-    assert "Dropped: the paper's claims" in notice and "differences of parts" in notice
-    assert run.stdout.index(notice) < run.stdout.index("Building DAG")
-
-
 def test_overlays_can_be_checked_without_snakemake(tmp_path):
     file, check = tmp_path / "mine.yaml", [sys.executable, "-m", "workflow.config"]
     file.write_text("prefix: mine\nmodel: {damping: 0.2\n")
     run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 1 and f"{file}:3: is not valid YAML: " in run.stderr
-    file.write_text("model: {damping: 0.2}")
+    file.write_text("prefix: mine\nmodel: {damping: 0.2}")
     run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 0 and "valid" in run.stdout

@@ -59,13 +59,11 @@ def test_the_companion_after_its_model(built):
         ({"estimates": {"phase": {"last": 0.5}}}, {"estimates": 2, "plot": 1}),
         # Fixed steps have no tolerance.
         ({"estimates": {"phase": {"tolerance": 1.0e-9}}}, {"estimates": 1, "plot": 1}),
-        ({"figures": {"fig22": {"settings": {"critical_acceleration": 51.0}}}}, {"plot": 1}),
-        # The amplitude is an axis of every table here, so its default has no effect.
-        ({"model": {"acceleration": 41.0}}, {}),
+        ({"figures": {"fig22": {"marks": {"critical_acceleration": 51.0}}}}, {"plot": 1, "caption": 1}),
     ],
 )
 def test_only_tables_that_use_it_after_a_config_value(built, change, expected):
-    assert built.under(change).planned(*TARGETS, *CAPTIONS) == {**expected, **({"captions": 1} if expected else {})}
+    assert built.under(change).planned(*TARGETS, *CAPTIONS) == expected
 
 
 def test_no_table_of_the_normal_motion_after_its_motion_along_the_track(copied):

@@ -9,7 +9,7 @@ from . import ConfigError, load_config
 from .files import DEFAULT_FILES
 
 try:
-    loaded = load_config(DEFAULT_FILES, sys.argv[1:], {})
+    load_config(DEFAULT_FILES, sys.argv[1:], {})
 except ConfigError as error:
     sys.exit(str(error))
-print(loaded.notice or "The config is valid.")
+print("The config is valid.")

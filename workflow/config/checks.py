@@ -28,8 +28,7 @@ from .entries import (
 )
 from .errors import suggest_name, type_problems
 from .files import DEFAULT_FILES, ROOT, merge, read_all
-from .model import MODEL
-from .own_conveyor import is_own_conveyor
+from .model import MODEL, is_same_model
 from .tables import NAMED, TABLES, entry_of, references, references_of
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
@@ -46,10 +45,12 @@ STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cy
 def prefix(config: dict, defaults: dict) -> Iterator[str]:
     if config["prefix"].lower() in RESERVED:  # macOS does not distinguish Logs from logs
         yield f"prefix = {config['prefix']!r} is a folder of the default results; give another name"
-    if not config["prefix"] and config["model"]["frequency"] != defaults["model"]["frequency"]:
+    if not config["prefix"] and not is_same_model(config["model"], defaults["model"]):
+        model, paper = config["model"], defaults["model"]
+        name = next(name for name, value in model.items() if name not in paper or value != paper[name])
         yield (
-            f"model.frequency = {config['model']['frequency']!r} Hz is another conveyor, for which axes and times must "
-            "be scaled; give it a prefix, such as prefix: mine"
+            f"model.{name} = {model[name]!r} differs from the paper's model, whose results have no prefix; give the "
+            "config one, such as prefix: mine"
         )
     for section, key in MEASURED_FILES:
         if key in config[section] and not config["prefix"]:
@@ -242,7 +243,7 @@ def figures(config: dict, defaults: dict) -> Iterator[str]:
 def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
     """Tables and settings that the default config does not have: no plot script and no finding uses them."""
     parts = [
-        (f"{section}.{name}", entry, defaults[section][name], ("tables", "caption_tables", "settings"))
+        (f"{section}.{name}", entry, defaults[section][name], ("tables", "caption_tables", "settings", "marks"))
         for section in FIGURES
         for name, entry in config[section].items()
         if name in defaults[section]
@@ -255,13 +256,12 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
         else:
             remedy = suggest_name(claim["finding"], [one["finding"] for one in defaults["claims"].values()])
             yield f"claims.{name}.finding = {claim['finding']!r} is not a finding of the default config; {remedy}"
-    may_lack = is_own_conveyor(defaults, config)
     for place, entry, default, keys in parts:
         for key in keys:
             given, known = entry.get(key, {}), default.get(key, {})
             for name in (name for name in given if name not in known):
                 yield f"{place}.{key}.{name} is an unknown key; {suggest_name(name, known)}"
-            for name in (name for name in known if name not in given and not may_lack):
+            for name in (name for name in known if name not in given):
                 yield f"{place}.{key}.{name} is missing; add it"
 
 
@@ -308,9 +308,8 @@ def excitation(config: dict, defaults: dict) -> Iterator[str]:
 
 def precision(config: dict, defaults: dict) -> Iterator[str]:
     duration = config["precision"]["duration"]
-    if is_own_conveyor(defaults, config) or abs(duration / LONGEST_STEP - round(duration / LONGEST_STEP)) < 1e-9:
-        return
-    yield f"precision.duration = {duration!r} s is not a multiple of the longest time step, {LONGEST_STEP} s"
+    if abs(duration / LONGEST_STEP - round(duration / LONGEST_STEP)) > 1e-9:
+        yield f"precision.duration = {duration!r} s is not a multiple of the longest time step, {LONGEST_STEP} s"
 
 
 CHECKS = (

@@ -83,15 +83,3 @@ def merge(*configs: dict) -> dict:
     for config in configs:
         update_config(merged, config)
     return merged
-
-
-def changed_values(before: dict, after: dict) -> dict:
-    """The keys of `after` with other values than `before`, level by level: what was merged over `before`."""
-    changed = {}
-    for key, value in after.items():
-        if isinstance(value, dict) and isinstance(before.get(key), dict):
-            if inner := changed_values(before[key], value):
-                changed[key] = inner
-        elif key not in before or before[key] != value:
-            changed[key] = value
-    return changed

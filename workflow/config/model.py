@@ -50,3 +50,9 @@ Config = TypedDict(
 )
 Config.__pydantic_config__ = ConfigDict(extra="forbid", allow_inf_nan=False)
 MODEL = TypeAdapter(Config)
+
+
+def is_same_model(one: dict, other: dict) -> bool:
+    """Whether two sections `model` describe the same: a default that is written out changes nothing."""
+    filled = [{"static_friction": model["friction"], "harmonics": []} | model for model in (one, other)]
+    return filled[0] == filled[1]

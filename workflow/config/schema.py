@@ -1,4 +1,4 @@
-"""The JSON Schema of the config: for editors (config/schema.json), error messages, and scaling."""
+"""The JSON Schema of the config: for editors (config/schema.json) and error messages."""
 
 import json
 from functools import cache

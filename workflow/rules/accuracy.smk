@@ -7,6 +7,10 @@ from workflow.config.tables import budgeted_entries, budgeted_tables
 PRECISION = {
     f"{scene}{ending}": table(f"precision{ending}/{scene}") for scene in scenes.SCENES for ending in ("", "_times")
 }
+# Of the target `study`.
+STUDY_FIGURES = listed_figures(
+    "work_precision", "stability", "stability_estimates", "scene_budget", "settling", "moved_impacts"
+)
 
 
 # These jobs start early, because each scene keeps one core busy for a long time.

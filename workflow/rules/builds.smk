@@ -21,7 +21,7 @@ BUILT_FILES = [
     result("claims.md"),
     *caption_files(),
     *figure_files(),
-    *figure_files("png"),
+    *figure_files(ending="png"),
 ]
 BUILD_RECORDS = [result("manifest.sha256"), result("provenance.json")]
 # Kinds of tables with measured times, which differ from build to build, and the figures that are drawn from them.

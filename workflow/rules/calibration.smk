@@ -88,7 +88,6 @@ if not MEASURED["calibration"]:
             benchmark_file("calibration/measured_example")
         params:
             **stage("calibration.synthetic"),
-            settings={name: PAPER["operating"][name] for name in ("height", "vz0", "psi0")},
         message:
             "Synthetic measurements for the example"
         script:

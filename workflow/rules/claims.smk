@@ -3,10 +3,10 @@ from workflow.config.tables import references, tighter_claims
 
 # Each claim alone.
 CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
-CLAIM_FILES = [table("results/claims"), result("claims.md")]
+CLAIM_FILES = [table("results/claims"), result("claims.md")] if IS_PAPER else []
 TIGHTER_CLAIMS = tighter_claims(config)
 # Tests of the results, which apply to the paper's conveyor only, and the tables that they read.
-RESULT_TESTS = [] if OWN_CONVEYOR else sources("tests/results/*.py")
+RESULT_TESTS = sources("tests/results/*.py") if IS_PAPER else []
 CHECKED = [result("checked.txt")] if RESULT_TESTS else []
 TESTED_TABLES = [
     reference
@@ -17,7 +17,7 @@ TESTED_TABLES = [
 
 rule claims:
     input:
-        read=map(table, references_of(config["claims"])),
+        read=lambda wildcards: tables_of_claims(config["claims"]),
         template=source("workflow/templates/claims.md"),
     output:
         claims=table("results/claims"),
@@ -37,7 +37,7 @@ rule claims:
 
 rule claim:
     input:
-        read=lambda wildcards: [table(reference) for reference in references_of(CLAIM[wildcards.name])],
+        read=lambda wildcards: tables_of_claims(CLAIM[wildcards.name]),
         template=source("workflow/templates/claims.md"),
     output:
         report=result("claims/{name}.md"),
@@ -59,7 +59,7 @@ rule claim:
 
 rule uncertainty:
     input:
-        read=map(table, references_of(TIGHTER_CLAIMS)),
+        read=lambda wildcards: tables_of_claims(TIGHTER_CLAIMS),
         claims=table("results/claims"),
     output:
         uncertainty=result("uncertainty.json"),

@@ -21,8 +21,6 @@ if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
 PREFIX = config["prefix"] and f"{config['prefix']}/"
 CORES = workflow.cores or 1
 THREADS = 2  # of a job with threads, so that a small machine runs it, and a large one several of them
-# The facts need all claims of the paper.
-HAS_ALL_CLAIMS = config["claims"] and config["claims"].keys() >= PAPER["claims"].keys()
 
 
 # -- names of files ----------------------------------------------------------------------------------------------------
@@ -76,18 +74,24 @@ def figure_file(figure, ending="pdf"):
     return f"figures/{PREFIX}{figure}.{ending}"
 
 
-def figure_files(ending="pdf"):
-    return [figure_file(figure, ending) for figure in config["figures"]]
+def listed_figures(*names):
+    """The figures with these names that this config has."""
+    return [name for name in names if name in config["figures"]]
 
 
-def caption_files():
-    return [result(f"captions/{figure}.rst") for figure in config["figures"]]
+def figure_files(figures=None, ending="pdf"):
+    """The files of some figures, or of all figures that are made without an explicit target."""
+    return [figure_file(figure, ending) for figure in (config["figures"] if figures is None else figures)]
+
+
+def caption_files(figures=None):
+    return [result(f"captions/{figure}.rst") for figure in (config["figures"] if figures is None else figures)]
 
 
 def section_in_report(wildcards):
     """The category of a figure in Snakemake's report."""
     section = FIGURES[wildcards.figure]["section"]
-    return f"Section {section}" if re.fullmatch(r"fig\d+", wildcards.figure) else f"Section {section}, beyond the paper"
+    return f"Section {section}" if wildcards.figure in PAPER_FIGURES else f"Section {section}, beyond the paper"
 
 
 def labels_in_report(wildcards):
@@ -131,12 +135,23 @@ def settings_of_table(reference):
     return settings_of(config, reference)
 
 
-def tables_of_facts(wildcards):
-    """The tables behind the text of README, article and site; an error for a config without the paper's claims."""
-    if not HAS_ALL_CLAIMS:
+def check_paper(target):
+    """An error for a target about the paper's conveyor, if this config has another model."""
+    if not IS_PAPER:
         raise WorkflowError(
-            "the text of README, article and site needs the paper's claims, which this config lacks; use the paper's config"
+            f"{target} is about the paper's conveyor, but this config changes the model; use the paper's config"
         )
+
+
+def tables_of_claims(claims):
+    """The tables that claims read; an error for another conveyor than the paper's."""
+    check_paper("the test of the paper's claims")
+    return [table(reference) for reference in references_of(claims)]
+
+
+def tables_of_facts(wildcards):
+    """The tables behind the text of README, article and site; an error for another conveyor."""
+    check_paper("the text of README, article and site")
     return FACTS
 
 
@@ -204,30 +219,33 @@ def measured_file(section):
 # -- figures and claims ------------------------------------------------------------------------------------------------
 
 FIGURES = config["figures"] | config["figures_on_request"]
-# Figures that this conveyor does not have, with the reasons.
-NO_FIGURES = {
-    name: entry["paper_only"]
-    for name, entry in (PAPER["figures"] | PAPER["figures_on_request"]).items()
-    if "paper_only" in entry and name not in FIGURES
-}
-if "sensitivity" not in FIGURES:
+# Of the target `paper`.
+PAPER_FIGURES = [figure for figure in config["figures"] if re.fullmatch(r"fig\d+", figure)]
+# Figures that this config cannot make, with the reasons. A figure of a measured file has the name of the section that names this file.
+NO_FIGURES = {section: reason for section, reason in NOT_MEASURED.items() if not MEASURED[section]}
+if config["model"].get("harmonics"):
     NO_FIGURES["sensitivity"] = "its derivatives are in dimensionless groups, which a plate with harmonics has not"
-# A figure of a measured file has the name of the section that names this file.
-NO_FIGURES |= {section: reason for section, reason in NOT_MEASURED.items() if not MEASURED[section]}
 
 
-def caption_scripts(figures):
-    """The scripts that compute numbers of the captions of some figures."""
-    return [script for figure in figures for script in modules(f"figures/caption_numbers/{figure}")]
+def settings_of_figure(figure):
+    """The settings of a figure, with the paper's numbers that it marks on the paper's conveyor."""
+    entry = FIGURES[figure]
+    return entry.get("settings", {}) | (entry.get("marks", {}) if IS_PAPER else {})
+
+
+def caption_scripts(wildcards):
+    """The script that computes numbers of a caption, if there is one."""
+    return modules(f"figures/caption_numbers/{wildcards.figure}")
 
 
 def tables_of_figure(wildcards):
-    """The tables that a figure draws, by their roles; an error for a figure that makes no sense for this conveyor."""
+    """The tables that a figure draws, by their roles; an error for a figure that this config cannot make."""
     if reason := NO_FIGURES.get(wildcards.figure):
-        raise WorkflowError(f"{figure_file(wildcards.figure)} cannot be made for this conveyor: {reason}")
+        raise WorkflowError(f"{figure_file(wildcards.figure)} cannot be made with this config: {reason}")
     return {role: table(reference) for role, reference in FIGURES[wildcards.figure]["tables"].items()}
 
 
-def captioned(wildcards):
-    """The entry of the figure whose caption is made by itself."""
-    return {wildcards.figure: config["figures_on_request"][wildcards.figure]}
+def tables_of_caption(wildcards):
+    """The tables that a figure draws, and further tables of its caption, by their roles."""
+    further = FIGURES.get(wildcards.figure, {}).get("caption_tables", {})
+    return tables_of_figure(wildcards) | {role: table(reference) for role, reference in further.items()}

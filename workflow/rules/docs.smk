@@ -222,7 +222,7 @@ rule site:
         diagrams=DIAGRAMS.values(),
         style=source("scripts/docs/site.css"),
         pdf=figure_files(),
-        png=figure_files("png"),
+        png=figure_files(ending="png"),
     output:
         directory(result("site")),
     log:

@@ -21,7 +21,7 @@ rule plot:
     resources:
         mem_mb=1500,
     params:
-        settings=lambda wildcards: FIGURES[wildcards.figure].get("settings", {}),
+        settings=lambda wildcards: settings_of_figure(wildcards.figure),
         expected=expected,
         code=lambda wildcards: source_hash("draw", f"figures/plots/{wildcards.figure}"),
     message:
@@ -30,44 +30,23 @@ rule plot:
         "../../scripts/draw.py"
 
 
-rule captions:
+rule caption:
     input:
-        read=map(table, references_of(config["figures"])),
-        templates=[source(f"scripts/figures/plots/{figure}.rst") for figure in config["figures"]],
+        unpack(tables_of_caption),
+        template=source("scripts/figures/plots/{figure}.rst"),
     output:
-        caption_files(),
-    log:
-        log_file("figures/captions"),
-    benchmark:
-        benchmark_file("figures/captions")
-    params:
-        **stage("figures.captions", scripts=lambda wildcards: caption_scripts(config["figures"])),
-        figures=config["figures"],
-        references=references_of(config["figures"]),
-        paper=not OWN_CONVEYOR,
-    message:
-        "Captions of all figures"
-    script:
-        "../../scripts/make.py"
-
-
-rule caption_on_request:
-    input:
-        read=lambda wildcards: [table(reference) for reference in references_of(captioned(wildcards))],
-        templates=[source("scripts/figures/plots/{figure}.rst")],
-    output:
-        [result("captions/{figure}.rst")],
+        caption=result("captions/{figure}.rst"),
     log:
         log_file("figures/caption_{figure}"),
     benchmark:
         benchmark_file("figures/caption_{figure}")
     wildcard_constraints:
-        figure=one_of(config["figures_on_request"]),
+        figure=one_of([*FIGURES, *NO_FIGURES]),
     params:
-        **stage("figures.captions", scripts=lambda wildcards: caption_scripts([wildcards.figure])),
-        figures=captioned,
-        references=lambda wildcards: references_of(captioned(wildcards)),
-        paper=not OWN_CONVEYOR,
+        **stage("figures.captions", scripts=caption_scripts),
+        settings=lambda wildcards: settings_of_figure(wildcards.figure),
+        figure="{figure}",
+        paper=IS_PAPER,
     message:
         "Caption of {wildcards.figure}"
     script:

@@ -14,11 +14,11 @@ def format_change(least: float, most: float) -> str:
     return f"{low:.1f} to {high:.1f} % {'below' if most < 0.0 else 'above'}"
 
 
-def numbers(*, converged: pd.DataFrame, fit: pd.DataFrame | None = None, euler: pd.DataFrame | None = None) -> dict:
+def numbers(*, converged: pd.DataFrame, fit: pd.DataFrame, euler: pd.DataFrame) -> dict:
     lowest, highest = ends_of(converged.attrs["scan"])
     values = {
         "found": converged.is_critical.any(),
-        "fitted": fit is not None and len(fit) > 0,
+        "fitted": len(fit) > 0,
         "returns": (~converged.is_critical & (converged.state_above == "first")).any(),
         "highest": highest,
         "resolution": RESOLUTION * (highest - lowest),
@@ -28,8 +28,6 @@ def numbers(*, converged: pd.DataFrame, fit: pd.DataFrame | None = None, euler: 
         ].acceleration.nunique(),
         "aside": None,
     }
-    if euler is None:
-        return values
     both = [edge[edge.is_critical].set_index("acceleration").z0 for edge in (euler, converged)]
     change = 100.0 * (both[0] / both[1] - 1.0).dropna()
     if change.empty:

@@ -16,13 +16,11 @@ def describe_exceptions(table: pd.DataFrame) -> str:
 
 
 def numbers(
-    *, converged: pd.DataFrame, spectrum: pd.DataFrame, states: pd.DataFrame, euler: pd.DataFrame | None = None
+    *, converged: pd.DataFrame, spectrum: pd.DataFrame, states: pd.DataFrame, euler: pd.DataFrame
 ) -> dict[str, float]:
     settled = with_settled_motion(converged, states)
     positive = settled[settled["lambda"] > 0.0]
     counts = {"positive": len(positive), "periodic": int((positive.period > 0).sum())}
-    if euler is None:
-        return counts
     up = spectrum[(spectrum.branch == "up")].sort_values("acceleration", kind="stable")
     joined = pd.merge_asof(
         converged.sort_values("acceleration", kind="stable"),

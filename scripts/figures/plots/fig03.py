@@ -11,13 +11,11 @@ MARKERS = {
 }
 
 
-def plot(
-    *, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical_acceleration: float | None = None
-) -> Figure:
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, critical_acceleration: float | None = None) -> Figure:
     """Draw two sweeps over acceleration, and mark `critical_acceleration` (m/s²)."""
     figure = style.figure(style.COLUMN, 62.0)
     axes = figure.subplots()
-    for role, sweep in style.drop_missing(euler=euler, converged=converged).items():
+    for role, sweep in {"euler": euler, "converged": converged}.items():
         rows = sweep.query("z0 == 0")
         axes.plot(rows.acceleration, rows.mean_velocity, "o", **style.LOOKS[role], **MARKERS[role])
     if critical_acceleration is not None:

@@ -39,12 +39,10 @@ def unsettled(sweep: pd.DataFrame) -> tuple[float, float] | None:
     return float(middle), float(wide.loc[middle])
 
 
-def plot(
-    *, converged: pd.DataFrame, euler: pd.DataFrame | None = None, two_states: list[float] | None = None
-) -> Figure:
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, two_states: list[float] | None = None) -> Figure:
     """Draw sweeps over acceleration and z0, and shade the interval `two_states` (m/s²)."""
     figure = style.figure(style.PAGE, 72.0)
-    sweeps = style.drop_missing(euler=euler, converged=converged)
+    sweeps = {"euler": euler, "converged": converged}
     panels = style.method_panels(figure, sweeps, style.AMPLITUDE, style.VELOCITY)
     plate = {"color": style.PLATE, "linewidth": 0.8, "linestyle": "--", "label": "largest velocity of the conveyor"}
     for axes, sweep in zip(panels, sweeps.values(), strict=True):

@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 from figures import style
 
 
-def plot(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical_height: float | None = None) -> Figure:
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, critical_height: float | None = None) -> Figure:
     """Draw sweeps over acceleration and z0, and mark `critical_height` (m)."""
     figure = style.figure(style.PAGE, 72.0)
-    sweeps = style.drop_missing(euler=euler, converged=converged)
+    sweeps = {"euler": euler, "converged": converged}
     panels = style.method_panels(figure, sweeps, "initial height $z_0$ in mm", style.VELOCITY)
     for axes, sweep in zip(panels, sweeps.values(), strict=True):
         curves = sweep.groupby("acceleration")

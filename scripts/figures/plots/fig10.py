@@ -16,30 +16,31 @@ def ends_of(axis: list | dict) -> tuple[float, float]:
 def plot(
     *,
     converged: pd.DataFrame,
+    euler: pd.DataFrame,
     fit: pd.DataFrame,
-    euler: pd.DataFrame | None = None,
-    fit_euler: pd.DataFrame | None = None,
+    fit_euler: pd.DataFrame,
+    paper_fit: bool = False,
 ) -> Figure:
-    """Draw critical heights and the regressions `fit` and `fit_euler` of Eq. 13."""
+    """Draw critical heights and the regressions `fit` and `fit_euler` of Eq. 13, with `paper_fit` also the paper's."""
     figure = style.figure(style.COLUMN, 82.0)
     axes = figure.subplots()
     edge = converged[converged.is_critical]
-    curves = (
+    curves = [
         (fit, "pymoo", style.CONVERGED, "-", "Eq. 13 fitted to the converged solution"),
         (fit_euler, "pymoo", style.EULER, "-", "Eq. 13 fitted to the paper's method"),
-        (fit, "paper", "black", ":", "Eq. 13 with the paper's A, B, C"),
-    )
+    ]
+    if paper_fit:
+        curves.append((fit, "paper", "black", ":", "Eq. 13 with the paper's A, B, C"))
     for fits, name, colour, line, label in curves:
-        if fits is None or name not in set(fits.fit):
+        if name not in set(fits.fit):
             continue
         ends = fits.attrs.get("acceleration", (edge.acceleration.min(), edge.acceleration.max()))
         fitted = np.linspace(*ends, 200)
         hyperbola = Hyperbola(*fits.set_index("fit").loc[name, ["A", "B", "C"]])
         axes.plot(fitted, 1e3 * critical_height(fitted, hyperbola), line, color=colour, linewidth=0.8, label=label)
     hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6}
-    if euler is not None:
-        rows = euler[euler.is_critical]
-        axes.plot(rows.acceleration, 1e3 * rows.z0, "o", markersize=4.0, **style.LOOKS["euler"], **hollow)
+    rows = euler[euler.is_critical]
+    axes.plot(rows.acceleration, 1e3 * rows.z0, "o", markersize=4.0, **style.LOOKS["euler"], **hollow)
     axes.plot(edge.acceleration, 1e3 * edge.z0, ".", markersize=2.6, **style.LOOKS["converged"])
     back = converged[~converged.is_critical & (converged.state_above == "first")]
     if len(back):

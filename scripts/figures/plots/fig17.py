@@ -6,10 +6,10 @@ from matplotlib.figure import Figure
 from figures import style
 
 
-def plot(*, converged: pd.DataFrame, euler: pd.DataFrame | None = None) -> Figure:
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
     """Draw sweeps over z0."""
     figure = style.figure(style.PAGE, 60.0)
-    sweeps = style.drop_missing(euler=euler, converged=converged)
+    sweeps = {"euler": euler, "converged": converged}
     panels = style.method_panels(figure, sweeps, "initial height $z_0$ in mm", style.VELOCITY)
     for axes, (role, rows) in zip(panels, sweeps.items(), strict=True):
         colour = style.LOOKS[role]["color"]

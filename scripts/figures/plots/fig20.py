@@ -10,15 +10,15 @@ def plot(
     *,
     converged: pd.DataFrame,
     edge: pd.DataFrame,
-    euler: pd.DataFrame | None = None,
+    euler: pd.DataFrame,
     first_positive: float | None = None,
 ) -> Figure:
     """Draw estimates and mark `first_positive` (m/s²).
 
     Amplitudes are shaded where a critical height of `edge` lies between the two initial heights of the estimate.
     """
-    estimates = style.drop_missing(euler=euler, converged=converged)
-    figure = style.figure(style.COLUMN, 16.0 + 34.0 * len(estimates))
+    estimates = {"euler": euler, "converged": converged}
+    figure = style.figure(style.COLUMN, 84.0)
     panels = figure.subplots(len(estimates), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     for axes, (role, table) in zip(panels, estimates.items(), strict=True):
         colour = style.LOOKS[role]["color"]

@@ -6,14 +6,12 @@ from matplotlib.figure import Figure
 from figures import style
 
 
-def plot(
-    *, converged: pd.DataFrame, euler: pd.DataFrame | None = None, critical_acceleration: float | None = None
-) -> Figure:
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, critical_acceleration: float | None = None) -> Figure:
     """Draw estimates of the exponent over the amplitude, and mark `critical_acceleration` (m/s²)."""
     figure = style.figure(style.COLUMN, 62.0)
     axes = figure.subplots()
     axes.axhline(0.0, color="black", linewidth=0.6)
-    for role, table in style.drop_missing(euler=euler, converged=converged).items():
+    for role, table in {"euler": euler, "converged": converged}.items():
         width = 1.6 if role == "euler" else 0.8
         axes.plot(table.acceleration, table["lambda"], linewidth=width, **style.LOOKS[role])
     if critical_acceleration is not None:

@@ -10,10 +10,10 @@ SMALL = 1e-4  # m, up to which heights are in µm, because ticks in mm would hav
 TRANSIENT = 0.5  # share of a run that is grey; the rest is coloured
 
 
-def plot(*, converged: pd.DataFrame, portraits: list[list[float]], euler: pd.DataFrame | None = None) -> Figure:
+def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, portraits: list[list[float]]) -> Figure:
     """Draw three `portraits`, given by acceleration (m/s²) and z0 (m)."""
-    signals = style.drop_missing(euler=euler, converged=converged)
-    figure = style.figure(style.PAGE, 8.0 + 52.0 * len(signals))
+    signals = {"euler": euler, "converged": converged}
+    figure = style.figure(style.PAGE, 112.0)
     panels = figure.subplots(len(signals), 3, sharex="col", sharey="col", squeeze=False)
     for line, (role, table) in zip(panels, signals.items(), strict=True):
         for axes, (acceleration, z0) in zip(line, portraits, strict=True):

@@ -19,7 +19,7 @@ def plot(
     *,
     converged: pd.DataFrame,
     correlation: pd.DataFrame,
-    euler: pd.DataFrame | None = None,
+    euler: pd.DataFrame,
     critical_acceleration: float | None = None,
 ) -> Figure:
     """Draw dimensions by box counting and by the `correlation` sum, and mark `critical_acceleration` (m/s²)."""
@@ -27,7 +27,7 @@ def plot(
     axes = figure.subplots()
     for dimension in (1.0, 2.0):
         axes.axhline(dimension, color="0.8", linewidth=0.6)
-    tables = style.drop_missing(euler=euler, converged=converged, correlation=correlation)
+    tables = {"euler": euler, "converged": converged, "correlation": correlation}
     for role, table in tables.items():
         marker, colour, label = LOOKS[role]
         known = table[table.dimension.notna()]

@@ -30,11 +30,13 @@ def marks(fit: pd.DataFrame) -> list[tuple[pd.Series, dict, str]]:
     ]
 
 
-def draw_errors(axes: Axes, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float) -> None:
+def draw_errors(axes: Axes, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float | None) -> None:
     """Draw the smallest error for each B, and the error that the paper prints (m²)."""
-    paper = 1e6 * paper_error**0.5
-    axes.axhline(paper, color="black", linewidth=0.6, linestyle=":")
-    style.note(axes, "printed error", (1.0, paper), (0, -2), xycoords=("axes fraction", "data"), ha="right", va="top")
+    if paper_error is not None:
+        paper = 1e6 * paper_error**0.5
+        axes.axhline(paper, color="black", linewidth=0.6, linestyle=":")
+        place = {"xycoords": ("axes fraction", "data"), "ha": "right", "va": "top"}
+        style.note(axes, "printed error", (1.0, paper), (0, -2), **place)
     fits = (
         (fit, style.CONVERGED, "fit to the converged solution"),
         (fit_euler, style.EULER, "fit to the paper's method"),
@@ -83,7 +85,9 @@ def draw_heights(axes: Axes, converged: pd.DataFrame, flat: pd.DataFrame, accele
     axes.legend()
 
 
-def plot(*, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float) -> Figure:
+def plot(
+    *, converged: pd.DataFrame, fit: pd.DataFrame, fit_euler: pd.DataFrame, paper_error: float | None = None
+) -> Figure:
     """Draw the fits of the critical heights `converged`, and mark the printed error `paper_error` (m²)."""
     figure = style.figure(style.PAGE, 62.0)
     panels = figure.subplots(1, 3)

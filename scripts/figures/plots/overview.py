@@ -40,7 +40,7 @@ def plot(
     spectrum: pd.DataFrame,
     estimate: pd.DataFrame,
     map: pd.DataFrame,
-    critical_acceleration: float,
+    critical_acceleration: float | None = None,
 ) -> Figure:
     """Draw attractors, exponents and states; shade from `critical_acceleration` (m/s²) to the accumulation."""
     figure = style.figure(style.PAGE, 96.0)
@@ -55,14 +55,17 @@ def plot(
     draw_attractors(diagram, strobes)
     draw_exponents(below, spectrum, estimate)
     for axes in (diagram, below):
-        axes.axvspan(critical_acceleration, accumulation, color=SHADE, zorder=-1)
+        if critical_acceleration is not None:
+            axes.axvspan(critical_acceleration, accumulation, color=SHADE, zorder=-1)
         axes.axvline(fold, color="black", linewidth=0.6, linestyle=":")
         axes.axvline(accumulation, color="black", linewidth=0.6, linestyle=":")
-    top, middle = {"xycoords": ("data", "axes fraction"), "va": "top"}, 0.5 * (critical_acceleration + accumulation)
+    top = {"xycoords": ("data", "axes fraction"), "va": "top"}
     style.note(diagram, "two attractors coexist", (fold, 0.97), (2, 0), **top)
     text = "doublings of\nthe jumps\naccumulate"
     style.note(diagram, text, (accumulation, 0.97), (-2, 0), ha="right", **top)
-    style.note(below, "chaos in\nthe paper", (middle, 0.97), ha="center", **top)
+    if critical_acceleration is not None:
+        middle = 0.5 * (critical_acceleration + accumulation)
+        style.note(below, "chaos in\nthe paper", (middle, 0.97), ha="center", **top)
     diagram.tick_params(labelbottom=False)
     below.set_ylim(LOWEST, 1.5 * spectrum.lambda_1.max())
     below.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
