@@ -25,6 +25,26 @@ def critical_acceleration(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Fi
     return single_quantity("critical_amplitude", second_from_rest, euler, converged)
 
 
+def influences(*, derivatives: pd.DataFrame, frictions: pd.DataFrame) -> Finding:
+    """Absolute elasticities of the critical amplitude: its relative change over the relative change of a parameter.
+
+    derivatives : of the critical amplitude of a part from rest by the parameters of the motion normal to the track
+    frictions : states of parts from rest over friction and amplitude, because friction is no parameter of that motion
+    """
+    rows = derivatives[(derivatives.kind == "critical_amplitude") & (derivatives.status == "ok")]
+    elasticities = rows.set_index("parameter").elasticity.abs()
+    critical = pd.Series({friction: second_from_rest(rows) for friction, rows in frictions.groupby("friction")})
+    span = critical.index.max() / critical.index.min()
+    quantities = {name: float(elasticities.get(name, NONE)) for name in ("mass", "stiffness", "damping")}
+    quantities["friction"] = float(np.log(critical.max() / critical.min()) / np.log(span)) if span > 1.0 else NONE
+    note = (
+        f"With every friction from {critical.index.min():g} to {critical.index.max():g}, the critical amplitude lies "
+        f"at {format_amplitude(critical.min())}. In the model, friction acts along the track only, and the state of "
+        "motion is a property of the motion normal to the track, which does not depend on the friction at all"
+    )
+    return Finding({}, quantities, note)
+
+
 def two_states(table: pd.DataFrame) -> tuple[float, float]:
     """Ends of the interval of amplitudes (m/s²) at which the first and the second state coexist."""
     kinds = table.groupby("acceleration").state.agg(set)
@@ -43,8 +63,12 @@ def interval(
     converged: pd.DataFrame,
     tension: pd.DataFrame | None = None,
     certificates: pd.DataFrame | None = None,
+    heights: pd.DataFrame | None = None,
 ) -> Finding:
-    """Ends of the interval of amplitudes (m/s²) at which both states coexist."""
+    """Ends of the interval of amplitudes (m/s²) at which both states coexist.
+
+    With `heights`, also the ends that are found if only amplitudes in the steps of that table are computed.
+    """
     ends = by_method(two_states, euler, converged)
     low, high = ends["converged"]
     at_end = converged[converged.acceleration == high]
@@ -57,8 +81,28 @@ def interval(
     if tension is not None:
         described = describe_tensions(tension, lambda rows: "{:g} to {:g} m/s²".format(*two_states(rows)))
         note += f". With two initial heights, for each treatment of a tensile contact force: {described}"
-    quantities = ({"lower_end": lower, "upper_end": upper} for lower, upper in ends.values())
+    quantities = [{"lower_end": lower, "upper_end": upper} for lower, upper in ends.values()]
+    if heights is not None:
+        coarse = by_method(lambda table: two_states(in_steps_of(table, heights)), euler, converged)
+        for by_fine_axis, (lower, upper) in zip(quantities, coarse.values(), strict=True):
+            by_fine_axis |= {"coarse_lower_end": lower, "coarse_upper_end": upper}
+        critical = second_from_rest(in_steps_of(converged, heights))
+        note += (
+            f". The steps of the paper's axis are unknown. In steps of {amplitude_step(heights):g} m/s², which Fig. 9 "
+            f"assumes, the part from rest changes its state at {format_amplitude(critical)}"
+        )
     return Finding(*quantities, note + about_proofs.describe_coexistence(certificates))
+
+
+def amplitude_step(table: pd.DataFrame) -> float:
+    """The distance (m/s²) between the amplitudes of a table with equal steps."""
+    return float(np.diff(np.sort(table.acceleration.unique())).mean())
+
+
+def in_steps_of(table: pd.DataFrame, coarse: pd.DataFrame) -> pd.DataFrame:
+    """The rows whose amplitudes lie on the axis of a coarser table, continued beyond its ends."""
+    steps = (table.acceleration - coarse.acceleration.min()) / amplitude_step(coarse)
+    return table[np.isclose(steps, steps.round(), rtol=0.0, atol=1e-6)]
 
 
 def scatter_onset(table: pd.DataFrame, spread: float = 0.05) -> float:
@@ -78,13 +122,12 @@ def chaos_onset(table: pd.DataFrame) -> float:
 def onset_of_chaos(
     *, euler: pd.DataFrame, converged: pd.DataFrame, certificates: pd.DataFrame | None = None
 ) -> Finding:
-    """Amplitude (m/s²) from which velocities scatter, which the paper reads as chaos."""
+    """Amplitudes (m/s²) from which velocities scatter, which the paper reads as chaos, and motions are chaotic."""
     scatter = by_method(scatter_onset, euler, converged)
     chaos = by_method(chaos_onset, euler, converged)
     note = (
-        "From the onset on, velocities scatter, but most motions settle to chaos only from "
-        f"{format_amplitude(chaos['converged'])} on ({format_amplitude(chaos['euler'])} when continued from the "
-        "paper's method)"
+        f"From {format_amplitude(scatter['converged'])} on, velocities scatter, but most motions settle to chaos only "
+        f"from {format_amplitude(chaos['converged'])} on"
     )
     between = converged[converged.acceleration.between(scatter["converged"], chaos["converged"], inclusive="left")]
     if len(between):
@@ -97,7 +140,8 @@ def onset_of_chaos(
             f"periodic motion ({periods})"
         )
     proved = about_proofs.describe_periodic(certificates, scatter["converged"])
-    return Finding({"onset": scatter["euler"]}, {"onset": scatter["converged"]}, note + proved)
+    quantities = ({"scatter": scatter[method], "onset": chaos[method]} for method in scatter)
+    return Finding(*quantities, note + proved)
 
 
 def critical_at(table: pd.DataFrame, acceleration: float) -> float:
@@ -107,10 +151,13 @@ def critical_at(table: pd.DataFrame, acceleration: float) -> float:
 
 
 def largest_critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, heights: pd.DataFrame) -> Finding:
-    """Largest critical height (mm) over the amplitudes of Fig. 9."""
+    """Largest critical height (mm) at the amplitudes of Fig. 9, and at how many the first state occurs above it."""
     amplitudes = np.sort(heights.acceleration.unique())
     values = by_method(
         lambda table: pd.Series([MM * critical_at(table, one) for one in amplitudes], amplitudes), euler, converged
+    )
+    returns = by_method(
+        lambda table: table[table.acceleration.isin(amplitudes) & (table.state_above == "first")], euler, converged
     )
     where = values["converged"].idxmax() if values["converged"].notna().any() else NONE
     note = (
@@ -126,7 +173,13 @@ def largest_critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, hei
             f"(converged). The state changes more than once over z0 at {repeated} of "
             f"{converged.acceleration.nunique()} amplitudes"
         )
-    return Finding(*({"largest_height": by_amplitude.max()} for by_amplitude in values.values()), note)
+    for row in returns["converged"].itertuples():
+        note += f". At {row.acceleration:g} m/s², the first state returns above {MM * row.z0:.3g} mm"
+    quantities = (
+        {"largest_height": values[method].max(), "returns": float(returns[method].acceleration.nunique())}
+        for method in values
+    )
+    return Finding(*quantities, note)
 
 
 def critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, acceleration: float) -> Finding:
@@ -141,7 +194,54 @@ def velocities(table: pd.DataFrame, state: str) -> tuple[float, float]:
     return tuple(100.0 * float(rows[rows.acceleration == end].mean_velocity.median()) for end in (low, high))
 
 
-def first_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.DataFrame) -> Finding:
+def describe_frictions(
+    frictions: pd.DataFrame, heights: pd.DataFrame, velocities_of: dict[str, list[float | None]]
+) -> str:
+    """At which frictions each of the paper's velocities comes out, and at which all of them do, in words.
+
+    frictions : runs in both states at the ends of the interval of two states, with an axis of frictions
+    heights : the runs of Fig. 9, whose amplitudes have the same ends
+    velocities_of : accepted intervals (cm/s): velocity of the first state at both ends, fall of the second state
+    """
+    ends = sorted({heights.acceleration.min(), heights.acceleration.max()})
+    at_ends = frictions[frictions.acceleration.isin(ends)]
+    rows = {
+        friction: velocities(of, "first") + velocities(of, "second") for friction, of in at_ends.groupby("friction")
+    }
+    table = pd.DataFrame(rows, index=["lower", "upper", "second_lower", "second_upper"]).T
+    found = {"lower_end": table.lower, "upper_end": table.upper, "fall": table.second_lower - table.second_upper}
+    fits = {name: values.between(*velocities_of[name], inclusive="both") for name, values in found.items()}
+    names = {
+        "lower_end": "the first state's velocity at the lower end",
+        "upper_end": "at the upper end",
+        "fall": "the second state's fall",
+    }
+    texts = [
+        f"{names[name]} at frictions of {fit.index[fit].min():g} to {fit.index[fit].max():g}"
+        if fit.any()
+        else f"{names[name]} at none"
+        for name, fit in fits.items()
+    ]
+    every = fits["lower_end"] & fits["upper_end"] & fits["fall"]
+    together = (
+        f"All come out at {every.index[every].min():g} to {every.index[every].max():g}"
+        if every.any()
+        else "No friction gives all of them"
+    )
+    return (
+        f"With another friction, from {table.index.min():g} to {table.index.max():g}, these numbers of the paper come "
+        f"out: {', '.join(texts)}. {together}"
+    )
+
+
+def first_velocity(
+    *,
+    euler: pd.DataFrame,
+    converged: pd.DataFrame,
+    tension: pd.DataFrame,
+    frictions: pd.DataFrame,
+    velocities_of: dict[str, list[float | None]],
+) -> Finding:
     """Velocity (cm/s) of the first state at both ends of the interval with two states."""
     ends = by_method(lambda table: velocities(table, "first"), euler, converged)
     described = describe_tensions(
@@ -151,13 +251,21 @@ def first_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.
     deviation = 100.0 * (ends["euler"][1] / high - 1.0)
     note = (
         f"The velocity rises by {high - low:.2f} cm/s. The paper's method deviates by {deviation:+.1f} % at the upper "
-        f"end. The largest velocity at any amplitude, for each treatment of a tensile contact force: {described}"
+        f"end. The largest velocity at any amplitude, for each treatment of a tensile contact force: {described}. "
+        f"{describe_frictions(frictions, converged, velocities_of)}"
     )
     quantities = ({"velocity_at_lower_end": lower, "velocity_at_upper_end": upper} for lower, upper in ends.values())
     return Finding(*quantities, note)
 
 
-def second_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd.DataFrame) -> Finding:
+def second_velocity(
+    *,
+    euler: pd.DataFrame,
+    converged: pd.DataFrame,
+    tension: pd.DataFrame,
+    frictions: pd.DataFrame,
+    velocities_of: dict[str, list[float | None]],
+) -> Finding:
     """Decrease (cm/s) of the velocity of the second state over the interval with two states."""
     ends = by_method(lambda table: velocities(table, "second"), euler, converged)
     medians = 100.0 * converged[converged.state == "second"].groupby("acceleration").mean_velocity.median()
@@ -165,7 +273,8 @@ def second_velocity(*, euler: pd.DataFrame, converged: pd.DataFrame, tension: pd
     least = f"Its minimum, {medians.min():.2f} cm/s, is at {medians.idxmin():g} m/s². " if len(medians) else ""
     note = (
         f"The velocity falls from {ends['converged'][0]:.2f} to {ends['converged'][1]:.2f} cm/s. {least}"
-        f"For each treatment of a tensile contact force, over its own interval: {described}"
+        f"For each treatment of a tensile contact force, over its own interval: {described}. "
+        f"{describe_frictions(frictions, converged, velocities_of)}"
     )
     return Finding(*({"fall": lower - upper} for lower, upper in ends.values()), note)
 
@@ -176,22 +285,25 @@ def flat_part(fit: pd.DataFrame) -> pd.DataFrame:
     return fit[(fit.fit == "valley") & (fit.error <= paper.error)]
 
 
-def fit(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding:
-    """A (m²/s²), B (m/s²) and C (m) of the best fit of Eq. 13, and its mean squared error (m²)."""
+def fit(*, euler: pd.DataFrame, converged: pd.DataFrame, edge: pd.DataFrame) -> Finding:
+    """Mean squared errors (m²) of Eq. 13 on the critical heights, with the paper's coefficients and the best ones."""
 
-    def best(table: pd.DataFrame) -> dict[str, float]:
-        row = table.set_index("fit").loc["pymoo"]
-        return {name: float(row[name]) for name in ("A", "B", "C", "error")}
+    def errors(table: pd.DataFrame) -> dict[str, float]:
+        error = table.set_index("fit").error
+        return {"paper_error": float(error.loc["paper"]), "best_error": float(error.loc["pymoo"])}
 
-    values = by_method(best, euler, converged)
-    paper_error = float(converged.set_index("fit").loc["paper"].error)
+    best, paper = (converged.set_index("fit").loc[name] for name in ("pymoo", "paper"))
+    low, high = converged.attrs["acceleration"]
+    heights = edge[edge.is_critical & edge.acceleration.between(low, high)]
+    distance = (paper.A / (paper.B + heights.acceleration) + paper.C - heights.z0).abs().max()
     valley = flat_part(converged)
     note = (
-        f"A, B and C are poorly determined. On the converged heights, the paper's values have the error "
-        f"{paper_error:.3g} m², and the best values {values['converged']['error']:.3g} m². Every B from "
-        f"{valley.B.min():.4g} to {valley.B.max():.4g} m/s² with its best A and C fits no worse than the paper's"
+        f"The curve with the paper's coefficients misses the converged heights by at most {1e3 * MM * distance:.0f} "
+        f"µm. The coefficients themselves are poorly determined: the best ones are A = {best.A:.4g} m²/s², "
+        f"B = {best.B:.4g} m/s² and C = {best.C:.4g} m, and every B from {valley.B.min():.4g} to "
+        f"{valley.B.max():.4g} m/s² with its best A and C fits no worse than the paper's"
     )
-    return Finding(values["euler"], values["converged"], note)
+    return Finding(*by_method(errors, euler, converged).values(), note)
 
 
 def find_runs(x: ArrayLike, chosen: ArrayLike) -> list[tuple[float, float]]:
@@ -209,12 +321,15 @@ def format_runs(runs: list[tuple[float, float]], most: int = 4) -> str:
 
 
 def one_onset(*, converged: pd.DataFrame, on_plate: pd.DataFrame) -> Finding:
-    """Distance (m/s²) between the lowest and the highest onset of chaos of all initial heights.
+    """Distances (m/s²) between the lowest and the highest onset of all initial heights, and between their first chaos.
+
+    The onset is the amplitude with the fewest exceptions, the first chaos the lowest amplitude with chaos at all.
 
     There is no number by the paper's method, because the converged solution determines the states of both methods.
     """
     heights = converged.groupby("z0")
     onsets = np.array([onset(rows.acceleration, rows.state == "chaos") for _, rows in heights])
+    first = np.array([rows.acceleration[rows.state == "chaos"].min() for _, rows in heights])
     share = (converged.state == "chaos").groupby(converged.acceleration).mean()
     coexisting = find_runs(share.index, (share > 0.0) & (share < 1.0))
     note = "An onset is the amplitude with the fewest exceptions, which are chaos below it and none above it. "
@@ -224,6 +339,12 @@ def one_onset(*, converged: pd.DataFrame, on_plate: pd.DataFrame) -> Finding:
         f"heights from {MM * converged.z0.min():g} to {MM * converged.z0.max():g} mm. For a part that starts on the "
         f"plate, and so lower, the onset is {format_amplitude(lower)}"
     )
+    early = first < onsets.min()
+    if early.any():
+        note += (
+            f". For {100 * early.mean():.0f} % of the heights, chaos occurs before all onsets, from "
+            f"{format_amplitude(first.min())} on"
+        )
     if coexisting:
         note += f". Chaos and regular motion coexist, depending on the initial height, at {format_runs(coexisting)}"
     if (share < 1.0).any():
@@ -231,7 +352,7 @@ def one_onset(*, converged: pd.DataFrame, on_plate: pd.DataFrame) -> Finding:
         note += ". Above the onset, regular motion remains " + (
             f"in windows only: {format_runs(windows)}" if windows else "nowhere"
         )
-    return Finding({}, {"spread": float(np.ptp(onsets))}, note)
+    return Finding({}, {"spread": float(np.ptp(onsets)), "first_spread": float(np.ptp(first))}, note)
 
 
 def impact_line(*, converged: pd.DataFrame) -> Finding:
@@ -275,16 +396,23 @@ def horizontal_lines(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Finding
 def overlap(
     *, height_low: pd.DataFrame, height_high: pd.DataFrame, velocity_low: pd.DataFrame, velocity_high: pd.DataFrame
 ) -> Finding:
-    """Share of the first state at the higher amplitude that is first state at the lower one; share of chaos there."""
+    """Share of the points without chaos at the higher amplitude that have the same state at the lower one."""
     shares = {}
+    kept = []
     maps = {"height": (height_low, height_high), "velocity": (velocity_low, velocity_high)}
     for place, (lower, higher) in maps.items():
         low, high = lower.state.to_numpy(), higher.state.to_numpy()
-        first = high == "first"
-        shares[f"shared_{place}"] = float((low[first] == "first").mean()) if first.any() else NONE
+        regular, first = high != "chaos", high == "first"
+        shares[f"shared_{place}"] = float((low[regular] == high[regular]).mean()) if regular.any() else NONE
         shares[f"chaos_{place}"] = float((high == "chaos").mean())
+        kept.append(float((low[first] == "first").mean()) if first.any() else NONE)
     chaotic = sum(int((table.state == "chaos").sum()) for table in (height_low, velocity_low))
-    return Finding({}, shares, f"At the lower amplitude, {chaotic} points of both maps are chaotic")
+    note = (
+        f"Of the points in the first state at the higher amplitude, {100 * kept[0]:.1f} % (Fig. 18) and "
+        f"{100 * kept[1]:.1f} % (Fig. 19) are in the first state at the lower amplitude as well. At the lower "
+        f"amplitude, {chaotic} points of both maps are chaotic"
+    )
+    return Finding({}, shares, note)
 
 
 def mapped(*, converged: pd.DataFrame) -> Finding:

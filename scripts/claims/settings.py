@@ -18,25 +18,34 @@ from ..pipeline.settings import (
     word,
 )
 
-CLAIMS = tuple(f"C{place:02d}" for place in range(1, 25))
+CLAIMS = tuple(f"C{place:02d}" for place in range(1, 27))
 NameOfClaim = word("claim of the paper", *CLAIMS)
 Statistic = number("number", ge=-1e300, le=1e300)
+Interval = interval(Statistic | None, "[least, largest] number, or null for no bound", point=True)
 Quantity = TypedDict(
     "Quantity",
     {
         "is": described(Line, "quantity and unit"),
         "paper": described(Statistic | None, "the paper's number, or null"),
-        "accepted": interval(Statistic | None, "[least, largest] number, or null for no bound", point=True),
+        "accepted": Interval,
         "because": text("reason for the interval", r"[\s\S]{3,}", "a reason of at least three letters"),
     },
 )
+
+
+FINDING_SETTINGS = {
+    "acceleration": Acceleration,
+    "velocities_of": mapping(
+        "accepted velocities of both states in cm/s", {"lower_end": Interval, "upper_end": Interval, "fall": Interval}
+    ),
+}
 
 
 class Claim(TypedDict):
     where: described(Line, "section or figure of the paper")
     statement: described(Line, "the claim")
     finding: described(Line, "function of scripts/claims, as MODULE.FUNCTION")
-    settings: NotRequired[mapping("settings of the finding", {"acceleration": Acceleration}, total=False)]
+    settings: NotRequired[mapping("settings of the finding", FINDING_SETTINGS, total=False)]
     quantities: entries(Quantity, "quantities that the finding returns", min_length=1)
     tables: entries(Reference, "tables by the roles that the finding knows")
 

@@ -171,6 +171,33 @@ def test_interval_of_two_states():
     assert all(math.isnan(end) for end in numbers(about_states.interval(**both(sweep("first"))).converged))
 
 
+def test_interval_on_a_coarser_axis():
+    """Both states from 28 to 48 m/s², of which an axis 20, 23, … has 29 and 47."""
+    table = sweep(lambda a, z: "second" if a > 48.0 or (a >= 28.0 and z > 0.0) else "first")
+    heights = pd.DataFrame({"acceleration": [29.0, 32.0, 35.0]})
+    finding = about_states.interval(**both(table), heights=heights)
+    assert numbers(finding.converged) == (28.0, 48.0, 29.0, 47.0)
+    assert "In steps of 3 m/s², which Fig. 9 assumes, the part from rest changes its state at 50 m/s²" in finding.note
+
+
+def test_influences_on_the_critical_amplitude():
+    derivatives = pd.DataFrame(
+        {
+            "kind": ["critical_amplitude"] * 3 + ["fold"],
+            "parameter": ["mass", "stiffness", "damping", "mass"],
+            "elasticity": [-0.3, -0.04, 0.3, 9.0],
+            "status": ["ok", "ok", "derivatives disagree", "ok"],
+        }
+    )
+    moves = pd.concat(
+        sweep(lambda a, z, mu=mu: "second" if a >= 50.0 * mu else "first").assign(friction=mu) for mu in (0.5, 1.0)
+    )
+    finding = about_states.influences(derivatives=derivatives, frictions=moves)
+    assert numbers(finding.converged) == pytest.approx((0.3, 0.04, math.nan, 1.0), nan_ok=True)
+    fixed = pd.concat(sweep(lambda a, z: "second" if a >= 50.0 else "first").assign(friction=mu) for mu in (0.5, 1.0))
+    assert about_states.influences(derivatives=derivatives, frictions=fixed).converged["friction"] == 0.0
+
+
 def test_interval_by_tension_mode():
     table = sweep(lambda a, z: "second" if a > 47.0 or (a >= 29.0 and z > 0.0) else "first")
     finding = about_states.interval(**both(table), tension=table.assign(tension="clip"))
@@ -180,8 +207,8 @@ def test_interval_by_tension_mode():
 def test_onset_of_chaos_by_scatter_and_by_state():
     table = sweep(lambda a, z: "chaos" if a >= 63.0 else "second", lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 else 0.0))
     finding = about_states.onset_of_chaos(**both(table))
-    assert (numbers(finding.euler), numbers(finding.converged)) == ((55.0,), (55.0,))
-    assert "settle to chaos only from 63 m/s² on (63 m/s²" in finding.note
+    assert (numbers(finding.euler), numbers(finding.converged)) == ((55.0, 63.0), (55.0, 63.0))
+    assert "settle to chaos only from 63 m/s² on" in finding.note
     assert (
         "Between these amplitudes, 100 % of the motions settle to a periodic motion (period 1 for 100 %)"
         in finding.note
@@ -272,9 +299,17 @@ def test_largest_critical_height_over_all_amplitudes():
     heights = pd.DataFrame({"acceleration": [29.0, 32.0, 35.0, 50.0]})
     rising = pd.DataFrame({"acceleration": [28.0, 29.0, 35.0], "z0": [4e-4, 1e-4, 3e-4], "is_critical": True})
     rising["crossing"] = 1
+    rising["state_above"] = "second"
     finding = about_states.largest_critical_height(**both(rising), heights=heights)
-    assert numbers(finding.converged) == pytest.approx((0.3,))  # not the height at 28 m/s² or at the lowest amplitude
+    assert numbers(finding.converged) == pytest.approx(
+        (0.3, 0.0)
+    )  # not the height at 28 m/s² or at the lowest amplitude
     assert finding.note.startswith("The largest height occurs at 35 m/s²")
+    again = {"crossing": 2, "state_above": "first", "is_critical": False}
+    returns = pd.DataFrame([{"acceleration": a, "z0": 4.5e-4} | again for a in (28.0, 29.0)])  # 28 is not in Fig. 9
+    finding = about_states.largest_critical_height(**both(pd.concat([rising, returns])), heights=heights)
+    assert numbers(finding.converged) == pytest.approx((0.3, 1.0))
+    assert finding.note.endswith("At 29 m/s², the first state returns above 0.45 mm")
 
 
 def test_velocities_of_both_states():
@@ -282,10 +317,25 @@ def test_velocities_of_both_states():
         lambda a, z: "first" if a < 29.0 or (z == 0.0 and a <= 47.0) else "second",
         lambda a, z: 1e-3 * a if z == 0.0 and a <= 47.0 else 0.07 - 1e-4 * (a - 29.0),
     )
-    tables = {**both(table), "tension": table[table.z0 == 0.0].assign(tension="clip")}
+    ends = table[table.acceleration.isin([29.0, 47.0])]
+    heights = table[table.acceleration.between(29.0, 47.0)]
+    # The velocities are proportional to the friction.
+    frictions = pd.concat(
+        ends.assign(friction=mu, mean_velocity=ends.mean_velocity * mu) for mu in np.arange(1, 21) / 10.0
+    )
+    tables = {**both(heights), "tension": table[table.z0 == 0.0].assign(tension="clip"), "frictions": frictions}
+    tables["velocities_of"] = {"lower_end": [1.4, 1.8], "upper_end": [2.3, 4.75], "fall": [0.1, 0.13]}
     assert numbers(about_states.first_velocity(**tables).converged) == pytest.approx((2.9, 4.7))
     assert numbers(about_states.second_velocity(**tables).converged) == pytest.approx((0.18,))
-    assert about_states.first_velocity(**tables).note.endswith("4.70 cm/s (clip)")
+    note = about_states.first_velocity(**tables).note
+    assert "4.70 cm/s (clip)" in note
+    assert "the first state's velocity at the lower end at frictions of 0.5 to 0.6, at the upper end" in note
+    assert (
+        "at frictions of 0.5 to 1, the second state's fall at frictions of 0.6 to 0.7. All come out at 0.6 to 0.6"
+        in note
+    )
+    tables["velocities_of"]["fall"] = [0.3, 0.36]
+    assert about_states.second_velocity(**tables).note.endswith("No friction gives all of them")
 
 
 def test_fit_comes_from_the_regression():
@@ -298,12 +348,18 @@ def test_fit_comes_from_the_regression():
             "error": [1e-11, 2e-11, 3e-11, 1.5e-11],
         }
     )
-    finding = about_states.fit(**both(table))
-    assert numbers(finding.converged) == (0.004, -20.0, -1e-4, 1e-11)
+    table.attrs["acceleration"] = [29.0, 47.0]
+    # Far from the curve outside the fitted amplitudes, and where the height is not critical.
+    acceleration = np.array([28.0, 30.0, 40.0, 41.0])
+    curve = 0.004 / (acceleration - 19.5) - 1e-4
+    edge = pd.DataFrame({"acceleration": acceleration, "z0": curve + np.array([1.0, 3e-6, 0.0, 1.0])})
+    finding = about_states.fit(**both(table), edge=edge.assign(is_critical=[True, True, True, False]))
+    assert numbers(finding.converged) == (2e-11, 1e-11)
+    assert "misses the converged heights by at most 3 µm" in finding.note
     assert (
-        "Every B from -21 to -21" not in finding.note
+        "every B from -21 to -21" not in finding.note
     )  # its error, 3e-11, is larger than the error of the paper's triple
-    assert "Every B from -18 to -18" in finding.note
+    assert "every B from -18 to -18" in finding.note
 
 
 def onset_of(table):
@@ -314,15 +370,16 @@ def onset_of(table):
 
 def test_spread_of_onsets():
     straight = onset_of(sweep(lambda a, z: "chaos" if a >= 60.0 else "second"))
-    assert (numbers(straight.euler), numbers(straight.converged)) == ((), (0.0,))
+    assert (numbers(straight.euler), numbers(straight.converged)) == ((), (0.0, 0.0))
     slanted = sweep(lambda a, z: "chaos" if a >= 60.0 + 2e4 * z else "second")
-    assert numbers(onset_of(slanted).converged) == (2.0,)
+    assert numbers(onset_of(slanted).converged) == (2.0, 2.0)
 
 
 def test_early_chaos_of_some_heights_is_noted():
     early = sweep(lambda a, z: "chaos" if a >= 63.0 or (a == 53.0 and z == 0.0) else "second")
     finding = onset_of(early)
-    assert numbers(finding.converged) == (0.0,)
+    assert numbers(finding.converged) == (0.0, 10.0)
+    assert "For 50 % of the heights, chaos occurs before all onsets, from 53 m/s² on" in finding.note
     assert "Chaos and regular motion coexist, depending on the initial height, at 53.00 m/s²" in finding.note
     assert (
         "heights from 0 to 0.1 mm. For a part that starts on the plate, and so lower, the onset is 59 m/s²"
@@ -362,11 +419,12 @@ def test_overlap_of_maps():
         f"{place}_{level}": table for place in ("height", "velocity") for level, table in (("low", low), ("high", high))
     }
     finding = about_states.overlap(**maps)
-    assert numbers(finding.converged) == (0.5, 0.25, 0.5, 0.25)
+    assert numbers(finding.converged) == pytest.approx((1.0 / 3.0, 0.25, 1.0 / 3.0, 0.25))
+    assert "higher amplitude, 50.0 % (Fig. 18) and 50.0 % (Fig. 19)" in finding.note
     assert " 0 points" in finding.note  # the chaos of the higher amplitude is not counted
 
 
-def test_only_the_first_state_is_shared():
+def test_chaos_at_the_lower_amplitude_is_not_shared():
     low, high = (pd.DataFrame({"state": states}) for states in (["first", "chaos", "second"], ["first"] * 3))
     maps = {
         f"{place}_{level}": one for place in ("height", "velocity") for level, one in (("low", low), ("high", high))
@@ -504,8 +562,30 @@ def test_portraits_in_the_order_of_the_states():
     assert numbers(about_chaos.portraits(**both(table)).converged) == (1.0, 1.1, 1.9)
 
 
+def test_the_size_of_a_perturbation_explains_positive_exponents():
+    tables = {"large": exponents(42.0), "large_euler": exponents(45.0), **both(exponents(50.0))}
+    for table in tables.values():
+        table.attrs = {"epsilon": 1e-8}
+    finding = about_chaos.size_of_perturbation(**tables, acceleration=50.0)
+    assert (numbers(finding.euler), numbers(finding.converged)) == ((5.0, 0.0), (8.0, 0.0))
+
+
+def test_dimensions_are_compared_between_neighbours_only():
+    """From 1 to 2 across a missing value is no step."""
+    dimension = np.where(AMPLITUDES >= 62.0, 2.0, np.where(AMPLITUDES >= 60.0, 1.3, 1.0))
+    dimension[AMPLITUDES == 61.0] = math.nan
+    table = pd.DataFrame({"acceleration": AMPLITUDES, "dimension": dimension})
+    table["status"] = np.where(np.isnan(dimension), "interval too wide", "ok")
+    tables = {**both(table), "converged_exponent": exponents(62.0), "euler_exponent": exponents(62.0)}
+    states = sweep(lambda a, z: "chaos" if a >= 63.0 else "second")
+    finding = about_chaos.predicted_onset(**tables, states=states, states_of_exponent=states)
+    assert finding.converged["largest_step"] == pytest.approx(0.3)
+    assert "no known dimension at 1 of 71 amplitudes (interval too wide: 1)" in finding.note
+
+
 def test_onset_by_dimension():
-    table = pd.DataFrame({"acceleration": AMPLITUDES, "dimension": np.where(AMPLITUDES >= 62.0, 2.0, 1.0)})
+    dimension = np.where(AMPLITUDES >= 62.0, 2.0, 1.0)
+    table = pd.DataFrame({"acceleration": AMPLITUDES, "dimension": dimension, "status": "ok"})
     tables = {
         **both(table),
         "converged_exponent": exponents(59.0),
