@@ -35,3 +35,19 @@ rule curves:
         "Folds and period doublings in two parameters"
     script:
         "../../scripts/make.py"
+
+
+rule frictions:
+    output:
+        **tables_of("sensitivity/frictions"),
+    log:
+        log_file("sensitivity/frictions"),
+    benchmark:
+        benchmark_file("sensitivity/frictions")
+    threads: THREADS
+    params:
+        **stage("sensitivity.frictions", "sensitivity/frictions"),
+    message:
+        "Velocities over the friction"
+    script:
+        "../../scripts/make.py"
