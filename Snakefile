@@ -1,4 +1,6 @@
 import os
+import sys
+from itertools import accumulate
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -7,9 +9,18 @@ from snakemake.utils import min_version
 try:
     from workflow.config import ConfigError, load_config
     from workflow.config.files import DEFAULT_FILES, ROOT
-except ModuleNotFoundError as error:
-    if error.name.partition(".")[0] != "workflow":
+except ImportError as error:
+    names = list(accumulate((error.name or "").split("."), "{}.{}".format))
+    if names[0] not in ("workflow", "scripts"):
         raise
+    # Another workflow may have packages of these names; Python imports the first one that it finds.
+    folders = [folder for name in names if name in sys.modules for folder in getattr(sys.modules[name], "__path__", [])]
+    own = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).resolve()
+    if others := [folder for folder in folders if not Path(folder).resolve().is_relative_to(own)]:
+        raise WorkflowError(
+            f"The workflow of the conveyor imports its folders workflow/ and scripts/, but Python finds {others[-1]} instead; "
+            "rename that folder"
+        )
     raise WorkflowError('This Snakefile needs the files beside it; in a Git repository, name path="workflow/Snakefile"')
 
 min_version("9.27")
@@ -19,9 +30,10 @@ min_version("9.27")
 configfile: str(ROOT / "config/config.yaml")
 
 
-# Overlays of the option --configfile. As a module, all that counts is the config that the other workflow passes.
+# Overlays of the option --configfile. As a module of another workflow, whose Snakefile may also lie in a folder of this
+# project, all that counts is the config that the other workflow passes.
 OVERLAYS = []
-if Path(workflow.main_snakefile).resolve().is_relative_to(ROOT):
+if Path(workflow.main_snakefile).resolve() in (ROOT / "Snakefile", ROOT / "workflow/Snakefile"):
     OVERLAYS = [os.path.relpath(file) for file in workflow.overwrite_configfiles]
     # Without the default values of `configfile:`, which load_config reads itself.
     config = dict(workflow.config_settings.config)

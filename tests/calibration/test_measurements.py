@@ -204,4 +204,4 @@ def test_the_caption_of_the_figure_needs_the_tables_of_this_figure_only(tmp_path
     run = run_snakemake(tmp_path / "mine.yaml", "results/mine/captions/calibration.rst")
     assert run.returncode == 0, run.stdout
     jobs = dict(re.findall(r"^(\w+) +(\d+)$", run.stdout, re.MULTILINE))
-    assert jobs.keys() == {"calibration", "calibration_prediction", "caption", "total"}
+    assert jobs.keys() == {"calibration", "calibration_prediction", "plot", "caption", "total"}

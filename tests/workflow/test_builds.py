@@ -139,3 +139,4 @@ def test_the_report_of_snakemake_shows_each_figure_with_its_caption(copied):
         assert f'"figures/{caption.stem}.png"' in report
         first_words = " ".join(caption.read_text(encoding="utf-8").split()[:4])
         assert f"<p>{first_words}" in report, caption.stem
+        assert f"Drawn by scripts/figures/plots/{caption.stem}.py" in report

@@ -56,9 +56,9 @@ def test_the_companion_after_its_model(built):
 @pytest.mark.parametrize(
     ("change", "expected"),
     [
-        ({"estimates": {"phase": {"last": 0.5}}}, {"estimates": 2, "plot": 1}),
+        ({"estimates": {"phase": {"last": 0.5}}}, {"estimates": 2, "plot": 1, "caption": 1}),
         # Fixed steps have no tolerance.
-        ({"estimates": {"phase": {"tolerance": 1.0e-9}}}, {"estimates": 1, "plot": 1}),
+        ({"estimates": {"phase": {"tolerance": 1.0e-9}}}, {"estimates": 1, "plot": 1, "caption": 1}),
         ({"figures": {"fig22": {"marks": {"critical_acceleration": 51.0}}}}, {"plot": 1, "caption": 1}),
     ],
 )

@@ -19,7 +19,8 @@ if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
 
 # "" or "NAME/": a config with a prefix has its own folder of results and figures.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
-CORES = workflow.cores or 1
+# Not workflow.cores, which fails without the option --cores, as in --report and --unlock.
+CORES = workflow.resource_settings.cores or 1
 THREADS = 2  # of a job with threads, so that a small machine runs it, and a large one several of them
 
 
@@ -27,8 +28,11 @@ THREADS = 2  # of a job with threads, so that a small machine runs it, and a lar
 
 
 def source(path):
-    """A file of this workflow, also when Snakemake runs in another folder."""
-    return os.path.relpath(ROOT / path)
+    """A file of this workflow, also when Snakemake runs in another folder.
+
+    It is not in an object storage, and the `prefix` of a module does not apply to it.
+    """
+    return local(os.path.relpath(ROOT / path))
 
 
 def sources(pattern):

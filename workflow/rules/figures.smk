@@ -6,12 +6,7 @@ rule plot:
         unpack(tables_of_figure),
     output:
         pdf=figure_file("{figure}"),
-        png=report(
-            figure_file("{figure}", "png"),
-            caption="../report/figure.rst",
-            category=section_in_report,
-            labels=labels_in_report,
-        ),
+        png=figure_file("{figure}", "png"),
     log:
         log_file("figures/{figure}"),
     benchmark:
@@ -32,6 +27,13 @@ rule plot:
 
 rule caption:
     input:
+        # Snakemake's report shows the picture with the caption below it, so that it needs both.
+        report(
+            ancient(figure_file("{figure}", "png")),
+            caption="../report/figure.rst",
+            category=section_in_report,
+            labels=labels_in_report,
+        ),
         unpack(tables_of_caption),
         template=source("scripts/figures/plots/{figure}.rst"),
     output:
@@ -47,7 +49,5 @@ rule caption:
         settings=lambda wildcards: settings_of_figure(wildcards.figure),
         figure="{figure}",
         paper=IS_PAPER,
-    message:
-        "Caption of {wildcards.figure}"
     script:
         "../../scripts/make.py"
