@@ -15,6 +15,7 @@ STUDY_FIGURES = listed_figures(
 
 # These jobs start early, because each scene keeps one core busy for a long time.
 rule precision:
+    """Error and work of all methods."""
     output:
         precision=table("precision/{name}"),
         precision_times=table("precision_times/{name}"),
@@ -28,13 +29,12 @@ rule precision:
     params:
         **stage("accuracy.precision", "precision/{name}"),
         repeats=config["precision"]["repeats"],
-    message:
-        "Error and work of all methods, {wildcards.name}"
     script:
         "../../scripts/make.py"
 
 
 rule benchmark:
+    """The solver compared with the paper's method."""
     input:
         **PRECISION,
         template=source("workflow/templates/benchmark.md"),
@@ -46,8 +46,6 @@ rule benchmark:
         benchmark_file("accuracy/benchmark")
     params:
         **stage("accuracy.benchmark_page"),
-    message:
-        "The solver compared with the paper's method"
     script:
         "../../scripts/make.py"
 
@@ -61,6 +59,7 @@ COMPARED_TABLES = {
 
 
 rule accuracy:
+    """Limits, times and errors of methods."""
     input:
         unpack(lambda wildcards: COMPARED_TABLES[wildcards.name]),
     output:
@@ -76,13 +75,12 @@ rule accuracy:
         runtime=60,
     params:
         **stage("accuracy.{name}", "results/{name}"),
-    message:
-        "Accuracy: {wildcards.name}"
     script:
         "../../scripts/make.py"
 
 
 rule scene_budget:
+    """Accuracy that the data of each figure need."""
     output:
         scene_budget=table("results/scene_budget"),
         budget_times=table("results/budget_times"),
@@ -96,7 +94,5 @@ rule scene_budget:
         **stage("accuracy.scene_budget", "results/scene_budget"),
         entries=budgeted_entries(config),
         drawn=budgeted_tables(config),
-    message:
-        "Accuracy that the data of each figure need"
     script:
         "../../scripts/make.py"

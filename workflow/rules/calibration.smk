@@ -4,6 +4,7 @@ CALIBRATION_FILES = [result("calibration.md"), figure_file("calibration")] if ME
 
 
 rule calibration:
+    """Parameters that the measured velocities imply."""
     input:
         measurements=measured_file("calibration"),
     output:
@@ -15,13 +16,12 @@ rule calibration:
     threads: THREADS
     params:
         **stage("calibration.calibrate", "calibration/parameters"),
-    message:
-        "Parameters that the measured velocities imply"
     script:
         "../../scripts/make.py"
 
 
 rule calibration_prediction:
+    """Velocities that the calibrated model predicts, and the next measurement."""
     input:
         **tables_of("calibration/samples", "calibration/fit"),
     output:
@@ -33,13 +33,12 @@ rule calibration_prediction:
     threads: THREADS
     params:
         **stage("calibration.prediction", "calibration/prediction"),
-    message:
-        "Velocities that the calibrated model predicts, and the next measurement"
     script:
         "../../scripts/make.py"
 
 
 rule calibration_page:
+    """The calibration in words."""
     input:
         **tables_of(*(f"calibration/{name}" for name in ("parameters", "fit", "alternatives", "prediction", "next"))),
         measurements=measured_file("calibration"),
@@ -53,13 +52,12 @@ rule calibration_page:
     params:
         **stage("calibration.page"),
         prefix=config["prefix"],
-    message:
-        "The calibration in words"
     script:
         "../../scripts/make.py"
 
 
 rule calibrated:
+    """An overlay with the calibrated parameters."""
     input:
         **tables_of("calibration/parameters", "calibration/fit"),
     output:
@@ -70,8 +68,6 @@ rule calibrated:
         benchmark_file("calibration/calibrated")
     params:
         **stage("calibration.overlay"),
-    message:
-        "An overlay with the calibrated parameters"
     script:
         "../../scripts/make.py"
 
@@ -80,6 +76,7 @@ rule calibrated:
 if not MEASURED["calibration"]:
 
     rule measured_example:
+        """Synthetic measurements for the example."""
         output:
             measurements="config/examples/measured.csv",
         log:
@@ -88,7 +85,5 @@ if not MEASURED["calibration"]:
             benchmark_file("calibration/measured_example")
         params:
             **stage("calibration.synthetic"),
-        message:
-            "Synthetic measurements for the example"
         script:
             "../../scripts/make.py"

@@ -16,6 +16,7 @@ TESTED_TABLES = [
 
 
 rule claims:
+    """The paper's statements."""
     input:
         read=lambda wildcards: tables_of_claims(config["claims"]),
         template=source("workflow/templates/claims.md"),
@@ -29,13 +30,12 @@ rule claims:
     params:
         **stage("claims.verdicts", "results/claims"),
         references=references_of(config["claims"]),
-    message:
-        "The paper's statements"
     script:
         "../../scripts/make.py"
 
 
 rule claim:
+    """One of the statements."""
     input:
         read=lambda wildcards: tables_of_claims(CLAIM[wildcards.name]),
         template=source("workflow/templates/claims.md"),
@@ -51,13 +51,12 @@ rule claim:
         **stage("claims.one_claim"),
         settings=lambda wildcards: {"claims": CLAIM[wildcards.name]},
         references=lambda wildcards: references_of(CLAIM[wildcards.name]),
-    message:
-        "The statement {wildcards.name} alone"
     script:
         "../../scripts/make.py"
 
 
 rule uncertainty:
+    """Uncertainty of the claims' numbers."""
     input:
         read=lambda wildcards: tables_of_claims(TIGHTER_CLAIMS),
         claims=table("results/claims"),
@@ -71,13 +70,12 @@ rule uncertainty:
         **stage("claims.uncertainty"),
         settings={"claims": TIGHTER_CLAIMS},
         references=references_of(TIGHTER_CLAIMS),
-    message:
-        "Uncertainty of the claims' numbers"
     script:
         "../../scripts/make.py"
 
 
 rule check_results:
+    """Tests of the results."""
     input:
         map(table, TESTED_TABLES),
         figure_files(),
@@ -96,7 +94,5 @@ rule check_results:
         results=lambda wildcards, output: os.path.dirname(output.checked),
         figures=config["figures"],
         tests=lambda wildcards: source("tests/results"),
-    message:
-        "Tests of the results"
     script:
         "../../scripts/make.py"

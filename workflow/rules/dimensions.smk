@@ -2,6 +2,7 @@
 
 
 rule dimensions:
+    """Fractal dimensions of phase portraits."""
     output:
         dimensions=table("dimensions/{name}"),
     log:
@@ -15,7 +16,5 @@ rule dimensions:
         mem_mb=2000,
     params:
         **stage("dimensions.portraits", "dimensions/{name}"),
-    message:
-        "Fractal dimensions, {wildcards.name}"
     script:
         "../../scripts/make.py"

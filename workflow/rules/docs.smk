@@ -58,6 +58,7 @@ STAGE_MODULES = [module for name in STAGES for module in modules(f"{name}/*")]
 
 
 rule page:
+    """A page of the documentation."""
     input:
         unpack(lambda wildcards: PAGES[wildcards.page]),
         template=source("workflow/templates/{page}.md"),
@@ -71,13 +72,12 @@ rule page:
         page=one_of(PAGES),
     params:
         **stage("docs.{page}_page", scripts=lambda wildcards: STAGE_MODULES if wildcards.page == "tables" else []),
-    message:
-        "The page {wildcards.page}.md"
     script:
         "../../scripts/make.py"
 
 
 rule companion:
+    """The interactive page."""
     input:
         sources("scripts/docs/companion/*.js*") + sources("scripts/docs/companion/page.*"),
         maps=[table(f"sweeps/{name}") for name in config["companion"]["maps"]],
@@ -90,14 +90,13 @@ rule companion:
     params:
         **stage("docs.companion.build"),
         settings={name: config[name] for name in ("model", "solver", "companion")},
-    message:
-        "The interactive page"
     script:
         "../../scripts/make.py"
 
 
 # The numbers of README, article, site and metadata.
 rule facts:
+    """The numbers of all pages."""
     input:
         unpack(tables_of_facts),
         provenance=result("provenance.json"),
@@ -119,14 +118,13 @@ rule facts:
                 for name, entry in config["figures"].items()
             },
         },
-    message:
-        "The numbers of all pages"
     script:
         "../../scripts/make.py"
 
 
 # The README, the form of the journal ReScience, and the manifest of CODECHECK.
 rule kept_pages:
+    """README and metadata."""
     input:
         facts=result("facts.json"),
         templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
@@ -138,13 +136,12 @@ rule kept_pages:
         benchmark_file("docs/kept_pages")
     params:
         **stage("docs.pages"),
-    message:
-        "README and metadata"
     script:
         "../../scripts/make.py"
 
 
 rule article:
+    """The article."""
     input:
         figure_files(),
         **ARTICLE_PARTS,
@@ -161,13 +158,12 @@ rule article:
         **stage("docs.article"),
         medium="print",
         folder=lambda wildcards, input: f"{os.path.dirname(input[0])}/",
-    message:
-        "The article"
     script:
         "../../scripts/make.py"
 
 
 rule site_pages:
+    """The pages of the site."""
     input:
         **ARTICLE_PARTS,
         templates=SITE_TEMPLATES,
@@ -184,14 +180,13 @@ rule site_pages:
         medium="site",
         folder="figures/",
         library=LIBRARY,
-    message:
-        "The pages of the site"
     script:
         "../../scripts/make.py"
 
 
 # The pictures that explain how the solver works: snakemake --force docs/diagrams/cycle.png
 rule diagrams:
+    """The diagrams of the site."""
     output:
         **DIAGRAMS,
     log:
@@ -200,13 +195,12 @@ rule diagrams:
         benchmark_file("docs/diagrams")
     params:
         **stage("docs.diagrams"),
-    message:
-        "The diagrams of the site"
     script:
         "../../scripts/make.py"
 
 
 rule site:
+    """The site."""
     input:
         article=result("article.pdf"),
         companion=f"{DOCS}companion.html",
@@ -233,8 +227,6 @@ rule site:
         mem_mb=1500,
     params:
         code=lambda wildcards: source_hash("build_site", *LIBRARY),
-    message:
-        "The site"
     script:
         "../../scripts/build_site.py"
 
@@ -245,6 +237,7 @@ rule site:
 #   snakemake docs/measured_calibration.png docs/measured_calibration.md --configfile config/examples/measured.yaml
 #   snakemake docs/measured_chart.md --configfile config/examples/measured.yaml results/measured/calibrated.yaml
 rule picture:
+    """A figure as a picture of the documentation."""
     input:
         png=figure_file("{figure}", "png"),
     output:
@@ -257,13 +250,12 @@ rule picture:
         figure="operating|transit|basin_stability|drive|calibration" if EXAMPLE else one_of(PICTURES),
     params:
         **stage("docs.pictures"),
-    message:
-        "The picture {wildcards.figure} of the documentation"
     script:
         "../../scripts/make.py"
 
 
 rule copied_page:
+    """A page of the documentation that is a copy of a result."""
     input:
         lambda wildcards: COPIES[wildcards.page],
     output:
@@ -273,20 +265,17 @@ rule copied_page:
     wildcard_constraints:
         page=one_of(COPIES),
     localrule: True
-    message:
-        "The page {wildcards.page}"
     run:
         Path(output[0]).write_bytes(Path(input[0]).read_bytes())
 
 
 # The JSON Schema of the config, which the repository keeps for editors: snakemake --force config/schema.json
 rule schema:
+    """The JSON Schema of the config."""
     output:
         "config/schema.json",
     log:
         log_file("docs/schema"),
     localrule: True
-    message:
-        "The JSON Schema of the config"
     run:
         Path(output[0]).write_text(json_schema(), encoding="utf-8")

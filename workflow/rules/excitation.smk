@@ -7,6 +7,7 @@ EXCITATION_FILES = EXCITATION_FILES if MEASURED["excitation"] else []
 
 
 rule excitation:
+    """Parameters and harmonics of the measured drive."""
     input:
         measured=measured_file("excitation"),
     output:
@@ -17,13 +18,12 @@ rule excitation:
         benchmark_file("excitation/parameters")
     params:
         **stage("excitation.measure", "excitation/parameters"),
-    message:
-        "Parameters and harmonics of the measured drive"
     script:
         "../../scripts/make.py"
 
 
 rule excitation_comparison:
+    """Transit on the measured drive, with and without its harmonics."""
     input:
         **tables_of("excitation/parameters", "excitation/harmonics"),
     output:
@@ -35,13 +35,12 @@ rule excitation_comparison:
     threads: THREADS
     params:
         **stage("excitation.comparison", "excitation/comparison"),
-    message:
-        "Transit on the measured drive, with and without its harmonics"
     script:
         "../../scripts/make.py"
 
 
 rule clean_drive:
+    """Transit on drives with one harmonic."""
     output:
         **tables_of("excitation/clean_drive"),
     log:
@@ -51,13 +50,12 @@ rule clean_drive:
     threads: THREADS
     params:
         **stage("excitation.clean_drive", "excitation/clean_drive"),
-    message:
-        "Transit on drives with one harmonic"
     script:
         "../../scripts/make.py"
 
 
 rule excitation_page:
+    """The measured drive in words."""
     input:
         **tables_of(*(f"excitation/{name}" for name in ("parameters", "harmonics", "quality", "comparison"))),
         template=source("workflow/templates/excitation.md"),
@@ -70,13 +68,12 @@ rule excitation_page:
     params:
         **stage("excitation.page"),
         prefix=config["prefix"],
-    message:
-        "The measured drive in words"
     script:
         "../../scripts/make.py"
 
 
 rule measured_drive:
+    """An overlay with the measured drive."""
     input:
         **tables_of("excitation/parameters", "excitation/harmonics"),
     output:
@@ -87,8 +84,6 @@ rule measured_drive:
         benchmark_file("excitation/measured_drive")
     params:
         **stage("excitation.overlay"),
-    message:
-        "An overlay with the measured drive"
     script:
         "../../scripts/make.py"
 
@@ -97,6 +92,7 @@ rule measured_drive:
 if not MEASURED["excitation"]:
 
     rule accelerometer_example:
+        """A synthetic accelerometer file for the example."""
         output:
             recording="config/examples/accelerometer.csv",
         log:
@@ -105,7 +101,5 @@ if not MEASURED["excitation"]:
             benchmark_file("excitation/accelerometer_example")
         params:
             **stage("excitation.synthetic"),
-        message:
-            "A synthetic accelerometer file for the example"
         script:
             "../../scripts/make.py"

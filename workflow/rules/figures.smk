@@ -2,6 +2,7 @@
 
 
 rule plot:
+    """A figure."""
     input:
         unpack(tables_of_figure),
     output:
@@ -19,13 +20,12 @@ rule plot:
         settings=lambda wildcards: settings_of_figure(wildcards.figure),
         expected=expected,
         code=lambda wildcards: source_hash("draw", f"figures/plots/{wildcards.figure}"),
-    message:
-        "Draw {wildcards.figure}"
     script:
         "../../scripts/draw.py"
 
 
 rule caption:
+    """The caption of a figure."""
     input:
         # Snakemake's report shows the picture with the caption below it, so that it needs both.
         report(

@@ -2,6 +2,7 @@
 
 
 rule regressions:
+    """Fit of Eq. 13."""
     input:
         critical=lambda wildcards: table(f"critical/{config['regressions'][wildcards.name]['critical']}"),
     output:
@@ -14,7 +15,5 @@ rule regressions:
         name=one_of(config["regressions"]),
     params:
         **stage("fit.regressions", "regressions/{name}"),
-    message:
-        "Fit of Eq. 13, {wildcards.name}"
     script:
         "../../scripts/make.py"

@@ -2,6 +2,7 @@
 
 
 rule motion:
+    """Motion of single parts: signals, spectra, impacts, critical heights."""
     output:
         table("{section}/{name}"),
     log:
@@ -14,7 +15,5 @@ rule motion:
     threads: THREADS
     params:
         **stage("motion.{section}", "{section}/{name}"),
-    message:
-        "Motion of single parts: {wildcards.section}, {wildcards.name}"
     script:
         "../../scripts/make.py"

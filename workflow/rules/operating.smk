@@ -12,6 +12,7 @@ MACHINE_FILES = [result("operating/chart.md"), *figure_files(MACHINE_FIGURES), *
 
 
 rule operating:
+    """Share of initial conditions that reach each attractor, and regimes over the amplitude."""
     output:
         **tables_of("operating/shares", "operating/regimes"),
     log:
@@ -21,13 +22,12 @@ rule operating:
     threads: THREADS
     params:
         **stage("operating.shares", "operating/shares"),
-    message:
-        "Share of initial conditions that reach each attractor, and regimes over the amplitude"
     script:
         "../../scripts/make.py"
 
 
 rule transit:
+    """Transit of parts along a track, over the amplitude."""
     input:
         CALIBRATED_OVERLAY,
         **CALIBRATED_PARTS,
@@ -40,13 +40,12 @@ rule transit:
     threads: THREADS
     params:
         **stage("operating.transit", "operating/transit"),
-    message:
-        "Transit of parts along a track, over the amplitude"
     script:
         "../../scripts/make.py"
 
 
 rule drift:
+    """Drift and diffusion in chaos, and the spread of transit over the length of the track."""
     input:
         **tables_of("operating/regimes"),
     output:
@@ -58,13 +57,12 @@ rule drift:
     threads: THREADS
     params:
         **stage("operating.drift", "operating/drift"),
-    message:
-        "Drift and diffusion in chaos, and the spread of transit over the length of the track"
     script:
         "../../scripts/make.py"
 
 
 rule advice:
+    """Where to run the conveyor, and what helps there."""
     input:
         CALIBRATED_OVERLAY,
         **CALIBRATED_PARTS,
@@ -78,13 +76,12 @@ rule advice:
     threads: THREADS
     params:
         **stage("operating.advice", "operating/advice"),
-    message:
-        "Where to run the conveyor, and what helps there"
     script:
         "../../scripts/make.py"
 
 
 rule throws:
+    """Motions of several conveyors over the throw number."""
     input:
         examples=[source(f"config/examples/{name}.yaml") for name in ("bowl", "linear", "trough")],
     output:
@@ -96,13 +93,12 @@ rule throws:
     threads: THREADS
     params:
         **stage("operating.throws", "operating/throws"),
-    message:
-        "Motions of several conveyors over the throw number"
     script:
         "../../scripts/make.py"
 
 
 rule track:
+    """Velocities over inclination and phase shift."""
     output:
         **tables_of("operating/track"),
     log:
@@ -112,13 +108,12 @@ rule track:
     threads: THREADS
     params:
         **stage("operating.track", "operating/track"),
-    message:
-        "Velocities over inclination and phase shift"
     script:
         "../../scripts/make.py"
 
 
 rule operating_chart:
+    """The operating chart in words."""
     input:
         **tables_of(
             "operating/transit", "operating/shares", "operating/regimes", "operating/advice", "operating/changes"
@@ -132,13 +127,12 @@ rule operating_chart:
         benchmark_file("operating/chart")
     params:
         **stage("operating.chart"),
-    message:
-        "The operating chart in words"
     script:
         "../../scripts/make.py"
 
 
 rule drive:
+    """Search for the settings of the drive."""
     output:
         **tables_of("operating/drive_front", "operating/drive_generations"),
     log:
@@ -148,13 +142,12 @@ rule drive:
     threads: THREADS
     params:
         **stage("operating.drive", "operating/drive_front"),
-    message:
-        "Search for the settings of the drive"
     script:
         "../../scripts/make.py"
 
 
 rule drive_page:
+    """The recommended settings of the drive in words."""
     input:
         **tables_of("operating/drive_front", "operating/drive_generations"),
         template=source("workflow/templates/drive.md"),
@@ -166,14 +159,13 @@ rule drive_page:
         benchmark_file("operating/drive_page")
     params:
         **stage("operating.drive_page"),
-    message:
-        "The recommended settings of the drive in words"
     script:
         "../../scripts/make.py"
 
 
 # Only an explicit target makes this table, because its searches take long.
 rule second_harmonic:
+    """The fastest drives with and without a second harmonic."""
     output:
         **tables_of("operating/second_harmonic"),
     log:
@@ -183,7 +175,5 @@ rule second_harmonic:
     threads: THREADS
     params:
         **stage("operating.second_harmonic", "operating/second_harmonic"),
-    message:
-        "The fastest drives with and without a second harmonic"
     script:
         "../../scripts/make.py"

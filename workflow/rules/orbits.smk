@@ -2,6 +2,7 @@
 
 
 rule estimates:
+    """Lyapunov exponents by finite differences."""
     output:
         estimates=table("estimates/{name}"),
     log:
@@ -15,13 +16,12 @@ rule estimates:
         mem_mb=2000,
     params:
         **stage("orbits.estimates", "estimates/{name}"),
-    message:
-        "Lyapunov exponents by finite differences, {wildcards.name}"
     script:
         "../../scripts/make.py"
 
 
 rule orbits:
+    """Periodic orbits."""
     output:
         **tables_of("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
     log:
@@ -30,13 +30,12 @@ rule orbits:
         benchmark_file("orbits/orbits")
     params:
         **stage("orbits.branches", "orbits/branches"),
-    message:
-        "Periodic orbits"
     script:
         "../../scripts/make.py"
 
 
 rule certificates:
+    """Proofs of orbits, bifurcations and chaos."""
     input:
         **tables_of("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"),
     output:
@@ -53,13 +52,12 @@ rule certificates:
         runtime=60,
     params:
         **stage("orbits.certified", "orbits/certificates"),
-    message:
-        "Proofs of orbits, bifurcations and chaos"
     script:
         "../../scripts/make.py"
 
 
 rule attractors:
+    """Attractors over the amplitude."""
     output:
         **tables_of("attractors/strobes"),
     log:
@@ -69,13 +67,12 @@ rule attractors:
     threads: THREADS
     params:
         **stage("orbits.strobes", "attractors/strobes"),
-    message:
-        "Attractors over the amplitude"
     script:
         "../../scripts/make.py"
 
 
 rule lyapunov:
+    """Lyapunov exponents over the amplitude."""
     input:
         **tables_of("attractors/strobes"),
     output:
@@ -87,13 +84,12 @@ rule lyapunov:
     threads: THREADS
     params:
         **stage("orbits.exponents", "lyapunov/spectrum"),
-    message:
-        "Lyapunov exponents over the amplitude"
     script:
         "../../scripts/make.py"
 
 
 rule witnesses:
+    """Three tests for chaos on each attractor."""
     input:
         **tables_of("attractors/strobes", "lyapunov/spectrum"),
     output:
@@ -105,7 +101,5 @@ rule witnesses:
     threads: THREADS
     params:
         **stage("orbits.witnesses", "lyapunov/witnesses"),
-    message:
-        "Three tests for chaos on each attractor"
     script:
         "../../scripts/make.py"

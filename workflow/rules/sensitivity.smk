@@ -2,6 +2,7 @@
 
 
 rule sensitivity:
+    """Derivatives of bifurcations and critical heights."""
     input:
         **tables_of("orbits/folds_and_doublings", "orbits/cascade"),
         critical=table(f"critical/{config['sensitivity']['critical']}"),
@@ -13,13 +14,12 @@ rule sensitivity:
         benchmark_file("sensitivity/derivatives")
     params:
         **stage("sensitivity.derivatives", "sensitivity/derivatives"),
-    message:
-        "Derivatives of bifurcations and critical heights"
     script:
         "../../scripts/make.py"
 
 
 rule curves:
+    """Folds and period doublings in two parameters."""
     input:
         **tables_of("orbits/folds_and_doublings", "orbits/cascade"),
     output:
@@ -31,8 +31,6 @@ rule curves:
     threads: THREADS
     params:
         **stage("sensitivity.curves", "sensitivity/continued"),
-    message:
-        "Folds and period doublings in two parameters"
     script:
         "../../scripts/make.py"
 

@@ -3,6 +3,7 @@
 
 
 rule sweeps:
+    """The rows of a sweep."""
     output:
         sweeps=table("sweeps/{name}"),
     log:
@@ -18,8 +19,6 @@ rule sweeps:
     params:
         **stage("sweeps.shards", "sweeps/{name}"),
         rows=rows_of_shard,
-    message:
-        "Sweep {wildcards.name}"
     script:
         "../../scripts/make.py"
 
@@ -36,11 +35,10 @@ use rule sweeps as shards with:
     wildcard_constraints:
         name=one_of(config["sweeps"]),
         shard=r"0|[1-9]\d*",
-    message:
-        "Sweep {wildcards.name}, shard {wildcards.shard}"
 
 
 rule joined_sweeps:
+    """A sweep: its shards in the order of the rows."""
     input:
         shards_of_sweep,
     output:
@@ -55,7 +53,5 @@ rule joined_sweeps:
         settings=lambda wildcards: settings_of(config, f"sweeps/{wildcards.name}"),
         points=points_of_sweep,
         code=lambda wildcards: source_hash("gather"),
-    message:
-        "Sweep {wildcards.name}, all shards"
     script:
         "../../scripts/gather.py"
