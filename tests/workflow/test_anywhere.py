@@ -108,40 +108,41 @@ def test_nested_values_of_the_command_line_reach_the_module(tmp_path):
 
 def test_a_report_of_a_module_with_a_prefix(tmp_path):
     """It moves the caption, but not the template, which lies in the working directory here."""
-    project = copy_project(tmp_path / "conveyor")
+    (tmp_path / "conveyor").mkdir()
+    copy_project(tmp_path / "conveyor")
     (tmp_path / "Snakefile").write_text("""
 module conveyor:
     snakefile: "conveyor/Snakefile"
-    config: {"prefix": "mine"}
+    config: {"prefix": "mine", "figures": {"fig01": {"section": "Sketch", "needs": "nothing", "tables": {}}}}
     prefix: "moved"
 
 use rule * from conveyor
 """)
-    target = "moved/results/mine/captions/fig03.rst"
+    target = "moved/results/mine/captions/fig01.rst"
     snakemake(tmp_path, *IN_PROCESS_OPTIONS, target)
     run = call_snakemake("--report", "report.html", target, folder=tmp_path)
     assert run.returncode == 0, run.stdout
     report = (tmp_path / "report.html").read_text(encoding="utf-8")
     words = (tmp_path / target).read_text(encoding="utf-8").split()[:4]
     assert f"<p>{' '.join(words)}" in report
-    assert (project / "scripts/figures/plots/fig03.py").is_file()
+    assert "Drawn by scripts/figures/plots/fig01.py" in report
 
 
 def test_a_snakefile_in_a_folder_of_the_clone_gives_its_config(tmp_path):
-    project = copy_project(tmp_path / "conveyor")
+    project = copy_project(tmp_path)
     (project / "study").mkdir()
     (project / "study/Snakefile").write_text(MODULE.format(snakefile="../Snakefile"))
     (project / "study/config.yaml").write_text(CONFIG)
     options = ("--snakefile", "study/Snakefile", "--configfile", "study/config.yaml")
-    stdout = snakemake(project, "--dry-run", *options, "results/mine/sweeps/few.parquet")
-    assert "results/mine/shards/few" in stdout
+    stdout = snakemake(project, "--dry-run", "results/mine/sweeps/few.parquet", *options)
+    assert "output: results/mine/sweeps/few.parquet" in stdout
 
 
 @pytest.mark.parametrize("options", [("--report", "r.html"), ("--summary",), ("--unlock",), ("--rulegraph", "dot")])
 def test_a_module_needs_no_number_of_cores(tmp_path, options):
     """For options that run no job."""
     (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + "use rule * from conveyor")
-    run = call_snakemake("results/claims.md", *options, folder=tmp_path)
+    run = call_snakemake("config/schema.json", *options, folder=tmp_path)
     assert run.returncode == 0, run.stdout
 
 
