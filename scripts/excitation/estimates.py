@@ -24,7 +24,9 @@ from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
 from .harmonics import Fit, duration_of
-from .reading import AXES, Recording
+from .modulation import modulation_of
+from .reading import AXES, Recording, turn
+from .sampling import CHECKED
 
 PARAMETERS = {"acceleration": "m/s²", "frequency": "Hz", "angle": "rad", "phase_shift": "rad"}
 SHARES = ("along", "along_phase", "normal", "normal_phase")
@@ -57,6 +59,12 @@ def wrap(phase: np.ndarray) -> np.ndarray:
     return math.pi - np.mod(math.pi - phase, 2.0 * math.pi)
 
 
+def phases_of(recording: Recording, fit: Fit) -> int:
+    """The number of different phases of the drive at which samples were taken."""
+    phases = np.mod((recording.time - fit.middle) * fit.frequency, 1.0)
+    return len(np.unique(np.round(phases, 4) % 1.0))
+
+
 def step_variance(recording: Recording, fit: Fit) -> np.ndarray:
     """Variance of each amplitude (m²/s⁴) from the steps of the converter, shape (2,).
 
@@ -64,12 +72,24 @@ def step_variance(recording: Recording, fit: Fit) -> np.ndarray:
     ever new phases, the steps q make harmonics with the mean square 0.0246 q³/A (from Blachman 1985). If every cycle
     is sampled at the same phases, only the samples of one cycle average the errors of the steps.
     """
-    phases = np.mod((recording.time - fit.middle) * fit.frequency, 1.0)
-    distinct = len(np.unique(np.round(phases, 4) % 1.0))
     step = recording.quanta.max()
     noise = np.maximum((fit.residual**2).mean(axis=1) - step**2 / 12.0, 0.0)
-    distortion = 0.0123 * step**3 / np.abs(fit.amplitudes[:, 0]) + step**2 / (6.0 * distinct)
+    distortion = 0.0123 * step**3 / np.abs(fit.amplitudes[:, 0]) + step**2 / (6.0 * phases_of(recording, fit))
     return distortion * np.exp(-4.0 * math.pi**2 * noise / step**2)
+
+
+def timing_variance(recording: Recording, fit: Fit) -> np.ndarray:
+    """Variance of each amplitude (m²/s⁴) from errors of the times that the noise does not show, shape (2, K).
+
+    Errors of the phase with the variance σ² reduce an amplitude of order k by k² σ²/2. Rounded times whose errors repeat
+    in every cycle make harmonics, as the steps of a converter do.
+    """
+    part = slice(0, CHECKED)
+    scatter = modulation_of(recording.time[part], fit._replace(residual=fit.residual[:, part])).scatter
+    orders = np.arange(1, fit.orders + 1)
+    rounding = 2.0 * math.pi * fit.frequency * recording.resolution
+    repeated = rounding**2 / (12.0 * phases_of(recording, fit)) * np.abs(fit.amplitudes[:, :1]) ** 2
+    return repeated + (0.5 * orders**2 * scatter**2 * np.abs(fit.amplitudes)) ** 2
 
 
 def noise_of(recording: Recording, fit: Fit) -> Noise:
@@ -95,7 +115,7 @@ def noise_of(recording: Recording, fit: Fit) -> Noise:
             above[axis, order], below[axis, order] = scale * (turns @ blocks), scale * (np.conj(turns) @ blocks)
     size = fit.amplitudes[:, :, None]
     above, below = above / size, below / size
-    added = step_variance(recording, fit)[:, None] / np.abs(fit.amplitudes) ** 2
+    added = (step_variance(recording, fit)[:, None] + timing_variance(recording, fit)) / np.abs(fit.amplitudes) ** 2
     return Noise(0.5 * (above + np.conj(below)), -0.5j * (above - np.conj(below)), added, 2 * len(shifts))
 
 
@@ -104,7 +124,26 @@ def variance(error: np.ndarray) -> np.ndarray:
     return (np.abs(error) ** 2).mean(axis=-1)
 
 
-def parameters(recording: Recording, fit: Fit, noise: Noise) -> dict[str, tuple[float, float]]:
+class Doubt(NamedTuple):
+    """Systematic errors that the noise does not show."""
+
+    mount: float = 0.0  # rad, of the direction of the axes
+    scale: float = 0.0  # relative, of the accelerations
+    rate: float = 0.0  # relative, of the sampling rate
+
+
+def values_of(amplitudes: np.ndarray, frequency: float) -> dict[str, float]:
+    """The value of each of PARAMETERS."""
+    along, normal = amplitudes[:, 0]
+    return {
+        "acceleration": math.hypot(abs(along), abs(normal)),
+        "frequency": frequency,
+        "angle": math.atan2(abs(normal), abs(along)),
+        "phase_shift": float(wrap(np.angle(along) - np.angle(normal))),
+    }
+
+
+def parameters(recording: Recording, fit: Fit, noise: Noise, doubt: Doubt = Doubt()) -> dict[str, tuple[float, float]]:
     """Value and standard error of each of PARAMETERS."""
     along, normal = fit.amplitudes[:, 0]
     acceleration = math.hypot(abs(along), abs(normal))
@@ -124,34 +163,45 @@ def parameters(recording: Recording, fit: Fit, noise: Noise) -> dict[str, tuple[
         "angle": (sine * cosine) ** 2 * (variance(by_axis[1] - by_axis[0]) + added.sum()),
         "phase_shift": variance(noise.phase[0, 0] - noise.phase[1, 0]) + added.sum(),
     }
-    values = {
-        "acceleration": acceleration,
-        "frequency": fit.frequency,
-        "angle": math.atan2(abs(normal), abs(along)),
-        "phase_shift": float(wrap(np.angle(along) - np.angle(normal))),
+    values = values_of(fit.amplitudes, fit.frequency)
+    others = values_of(turn(fit.amplitudes, doubt.mount), fit.frequency * (1.0 + doubt.rate))
+    others["acceleration"] *= 1.0 + doubt.scale
+    changes = {name: others[name] - values[name] for name in PARAMETERS}
+    changes["phase_shift"] = float(wrap(changes["phase_shift"]))
+    return {
+        name: (values[name], math.hypot(noise.student * math.sqrt(errors[name]), changes[name])) for name in PARAMETERS
     }
-    return {name: (values[name], noise.student * math.sqrt(errors[name])) for name in PARAMETERS}
 
 
-def harmonics(fit: Fit, noise: Noise) -> dict[str, np.ndarray]:
+def shares_of(amplitudes: np.ndarray, orders: np.ndarray) -> dict[str, np.ndarray]:
+    """Shares and phases of the harmonics of some orders, by column name."""
+    zero, columns = np.angle(amplitudes[1, 0]), {}
+    for axis, name in enumerate(AXES):
+        columns[name] = np.abs(amplitudes[axis, 1:] / amplitudes[axis, 0])
+        columns[f"{name}_phase"] = wrap(np.angle(amplitudes[axis, 1:]) - orders * zero)
+    return columns
+
+
+def harmonics(fit: Fit, noise: Noise, doubt: Doubt = Doubt()) -> dict[str, np.ndarray]:
     """Shares and phases of the harmonics of orders 2 and higher with their standard errors, and which of them are above
     the noise, by column name, each of shape (K - 1,)."""
     orders = np.arange(2, fit.orders + 1)
     tests = 2 * len(orders)
     columns: dict[str, np.ndarray] = {"order": orders}
-    zero = np.angle(fit.amplitudes[1, 0])
+    values, others = shares_of(fit.amplitudes, orders), shares_of(turn(fit.amplitudes, doubt.mount), orders)
     for axis, name in enumerate(AXES):
-        share = np.abs(fit.amplitudes[axis, 1:] / fit.amplitudes[axis, 0])
+        share, phase = values[name], values[f"{name}_phase"]
         own = variance(noise.amplitude[axis]) + noise.added[axis], variance(noise.phase[axis]) + noise.added[axis]
         # Power over the mean power of noise, two numbers over twice as many as an amplitude or a phase has.
         ratio = 2.0 / (own[0] + own[1])[1:]
         above = ratio / 2.0 > f_distribution.isf(CHANCE / max(tests, 1), 2, 2 * noise.degrees)
         relative = noise.student * np.sqrt(own[0][1:] + own[0][0])
         columns[name] = share
-        columns[f"{name}_stderr"] = share * relative * np.where(above, 1.0, BELOW)
-        columns[f"{name}_phase"] = wrap(np.angle(fit.amplitudes[axis, 1:]) - orders * zero)
+        columns[f"{name}_stderr"] = np.hypot(share * relative * np.where(above, 1.0, BELOW), others[name] - share)
+        columns[f"{name}_phase"] = phase
         of_zero = variance(noise.phase[1])[0] + noise.added[1, 0]
         error = noise.student * np.sqrt(own[1][1:] + orders**2 * of_zero)
+        error = np.hypot(error, wrap(others[f"{name}_phase"] - phase))
         # A harmonic below the noise may have any phase.
         columns[f"{name}_phase_stderr"] = np.where(above, error, math.pi / NORMAL)
         columns[f"{name}_above_noise"] = above

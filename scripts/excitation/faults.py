@@ -1,50 +1,36 @@
-"""Signals that cannot be used: too few cycles, aliasing, clipping, a second frequency, an impossible unit.
+"""Recordings that cannot be used: too few cycles, aliasing, clipping, a second frequency, wrong times or units.
 
-The config check calls `faults` before any job starts.
+The config check calls `check` before any job starts. Each function below looks for one kind of fault.
 """
 
 import math
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from .harmonics import (
-    PADDING,
-    Fit,
-    duration_of,
-    fit,
-    gaps_of,
-    orders_of,
-    sampling_rate,
-    spectrum,
-    steadiness,
-    strongest,
-)
-from .reading import DIRECTIONS, STANDARD_GRAVITY, UNITS, Recording, RecordingError, line_of_sample, parse, read_text
-
-__all__ = ["RecordingError", "checked", "first_fit", "read_text"]
+from .gravity import direction_fault, gravity_of, size_fault
+from .harmonics import Fit, duration_of, first_fit, gaps_of, sampling_rate, steadiness
+from .modulation import Modulation, alternates, modulation_of, timing_line
+from .reading import DIRECTIONS, UNITS, Recording, parse
+from .sampling import CHECKED, STAMPED, resolve
 
 LEAST_CYCLES = 8
 LEAST_PER_CYCLE = 8  # samples; with fewer, harmonics of low orders are aliased
-CHECKED = 2**15  # samples that are searched for lines: more cost seconds at every start
-CHECKED_ORDERS = 8
 # Amplitudes (m/s²) of which one unit or the other is wrong: no plate has less to convey with, or survives more.
 LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
 MOST_DISPLACEMENT = 0.1  # m
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
-# Amplitude up to which a file may be in g. Beside a larger one, 1 m/s² is an offset of the sensor, not gravity in g.
-MOST_IN_G = 15.0
-GRAVITY = 0.03  # relative deviation within which an offset counts as gravity
-MOST_TILT = 0.2  # share of gravity normal to the track, below which the sensor cannot stand as stated
+OTHER_FREQUENCY = 0.01  # relative difference from a stated frequency: more than clocks differ, and than a motor slips
 MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
 MOST_GAPS = 0.75  # share of the recording without samples, beyond which cycles cannot be counted across gaps
+# Share of the lines that may repeat the time of the line before, as rounded times of random samples do. Where rounding
+# makes more of them equal, it is coarse enough to blur the harmonics.
+MOST_EQUAL = 0.05
+MOST_RATE_ERROR = 2e-3  # relative standard error of the sampling rate
+MOST_SCATTER = 0.3  # rad, of the phase: times that the samples were not taken at
 OUTLIER = 20.0  # times the 95 % quantile of a column, from which a sample is no vibration
 UNSTEADY = 0.15  # relative standard deviation of the amplitude, above which its mean is no parameter of the drive
-# A further line counts from this share of the fundamental of its axis, if its power is this multiple of the noise's
-# median power nearby, and if it is this far from all multiples of the fundamental; the last two in units of 1/T.
-SHARE, OUT_OF_NOISE, NEARBY, FOOT = 0.05, 40.0, 20, 2.0
-MOST_SUBHARMONIC = 4  # the fundamental may be weaker than its harmonics up to this order
 NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does not vibrate
 # A clipped signal stays at its extreme value far longer than near it.
 NEAR, SPIKE, PLATEAU, FLAT, LEAST_FLAT = 0.002, 4.0, 3.0, 0.01, 20
@@ -68,85 +54,40 @@ def clipped(readings: np.ndarray, quantum: float) -> int | None:
     return min((sample for sample in samples if sample is not None), default=None)
 
 
-def further_line(time: np.ndarray, fitted: Fit) -> tuple[float, float] | None:
-    """Frequency (Hz) and amplitude (m/s²) of the strongest line that is no multiple of the fundamental, or None."""
-    from scipy.ndimage import median_filter
+class Signal(NamedTuple):
+    """A recording and what was fitted to it."""
 
-    frequencies, amplitudes = spectrum(time, fitted.residual)
-    resolution = 1.0 / duration_of(time)
-    multiple = np.round(frequencies / fitted.frequency)
-    # Where an amplitude drifts, its line has a foot.
-    own = (np.abs(frequencies - multiple * fitted.frequency) < FOOT * resolution) & (multiple > 0.0)
-    searched = ~own & (frequencies > max(fitted.frequency / (MOST_SUBHARMONIC + 0.5), 3.0 * resolution))
-    if not searched.any():
-        return None
-    # Coloured noise is strong only near some frequencies, so its median nearby counts.
-    noise = median_filter(amplitudes, (1, NEARBY * PADDING), mode="nearest")
-    shares = amplitudes / np.abs(fitted.amplitudes[:, :1])
-    counts = searched & (amplitudes**2 > OUT_OF_NOISE * noise**2) & (shares > SHARE)
-    axis, place = np.unravel_index(np.argmax(np.where(counts, shares, 0.0)), shares.shape)
-    return (float(frequencies[place]), float(amplitudes[axis, place])) if counts[axis, place] else None
+    recording: Recording
+    fitted: Fit
+    other: tuple[float, float] | None  # frequency (Hz) and amplitude (m/s²) of a line that is no harmonic
+    modulation: Modulation
+    settings: Mapping[str, Any]  # of the section `excitation`, with `inclination` and `frequency`, if it is stated
 
+    @property
+    def rate(self) -> float:
+        return sampling_rate(self.recording.time)
 
-def first_fit(time: np.ndarray, signals: np.ndarray, orders: int = CHECKED_ORDERS) -> tuple[Fit, tuple | None]:
-    """The harmonics, and a line that is no multiple of their frequency, or None."""
-    rate = sampling_rate(time)
-
-    def fitted(guess: float) -> Fit:
-        return fit(time, signals, guess, min(orders, orders_of(rate, guess)))
-
-    model = fitted(strongest(time, signals)[0])
-    other = further_line(time, model)
-    # The strongest line may be a harmonic of a weaker fundamental.
-    for order in range(2, MOST_SUBHARMONIC + 1) if other else ():
-        if abs(order * other[0] - model.frequency) < 1.0 / duration_of(time):
-            model = fitted(model.frequency / order)
-            return model, further_line(time, model)
-    return model, other
+    @property
+    def sizes(self) -> np.ndarray:
+        """Amplitudes of the fundamentals, m/s²."""
+        return np.abs(self.fitted.amplitudes[:, 0])
 
 
-def unit_faults(acceleration: float, frequency: float, offsets: np.ndarray, unit: str) -> Iterator[str]:
-    """Amplitude (m/s²), frequency (Hz) and offsets (m/s²) that no plate has."""
-    given = acceleration / UNITS[unit]
-    shown = f"vibrates with {given:.4g} {unit}" + (f", which is {acceleration:.4g} m/s²" if unit == "g" else "")
-    other = next(name for name in UNITS if name != unit)
-    gravity = math.hypot(*offsets)
-    if acceleration > MOST_ACCELERATION:
-        if unit == "g" and given < MOST_ACCELERATION:
-            yield f"{shown}; no conveyor does: leave excitation.unit out if the file is in m/s²"
-        else:
-            yield f"{shown}; no conveyor does: divide values in mm/s² or in thousandths of g by 1000"
-    elif acceleration < LEAST_ACCELERATION:
-        remedy = "set excitation.unit: g if the file is in g" if unit == "m/s²" else "give g or m/s², not a voltage"
-        yield f"{shown}; that moves no part: {remedy}, and record while the drive is on"
-    elif (displacement := acceleration / (2.0 * math.pi * frequency) ** 2) > MOST_DISPLACEMENT:
-        yield (
-            f"{shown}, at {frequency:.3g} Hz; the plate would move by {displacement:.3g} m: write the time in s "
-            "(divide milliseconds by 1000), or sample faster if the drive is faster (aliasing)"
-        )
-    elif frequency > MOST_FREQUENCY:
-        yield f"{shown}, at {frequency:.5g} Hz; no conveyor does: write the time in s (multiply minutes by 60)"
-    elif (unit == "g" or given < MOST_IN_G) and abs(
-        gravity / UNITS[unit] * UNITS[other] / STANDARD_GRAVITY - 1.0
-    ) < GRAVITY:
-        remedy = "set excitation.unit: g" if other == "g" else "leave excitation.unit out"
-        yield f"shows gravity as {gravity / UNITS[unit]:.3g}, so its values are in {other}; {remedy}"
-    elif abs(gravity / STANDARD_GRAVITY - 1.0) < GRAVITY and abs(offsets[1]) < MOST_TILT * gravity:
-        yield (f"shows gravity, {gravity:.3g} m/s², along the track; check which column is which, and excitation.mount")
-
-
-def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iterator[tuple[int | None, str]]:
-    """Sample (None for the whole file) and description of each fault; `stated` is the frequency of the config (Hz)."""
-    time, signals = recording.time[:CHECKED], recording.acceleration[:, :CHECKED]
+def gap_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+    """A recording that consists of gaps."""
     intervals, is_gap = gaps_of(recording.time)
     if (missing := intervals[is_gap].sum()) > MOST_GAPS * intervals.sum():
         yield (
-            int(np.argmax(is_gap)) + 1,
+            int(recording.lines[np.argmax(is_gap) + 1]),
             f"follows a gap, and gaps are {100.0 * missing / intervals.sum():.2g} % of the recording; keep a piece "
             "between gaps",
         )
-        return
-    for name, readings in zip(recording.columns, recording.readings, strict=True):
+
+
+def reading_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+    """A column that is constant, has an outlier, or is cut off."""
+    for key, readings in zip(recording.columns, recording.readings, strict=True):
+        name, scale = recording.names[key].lstrip("-"), UNITS[recording.unit]
         if np.ptp(readings) == 0.0:
             yield None, f"has the same value in every line of the column {name}; check the sensor and its channel"
             return
@@ -154,63 +95,157 @@ def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iter
         if sizes.max() > OUTLIER * np.quantile(sizes, 0.95) > 0.0:
             sample = int(np.argmax(sizes))
             yield (
-                sample,
-                f"{name} = {readings[sample] / UNITS[unit]:.4g} stands out of all other values; delete the line, and "
+                int(recording.lines[sample]),
+                f"{name} = {readings[sample] / scale:.4g} stands out of all other values; delete the line, and "
                 "check the cable",
             )
             return
         if (sample := clipped(readings, recording.quanta.max())) is not None:
             yield (
-                sample,
-                f"{name} = {readings[sample] / UNITS[unit]:.4g} is cut off there and in other cycles; record again "
+                int(recording.lines[sample]),
+                f"{name} = {readings[sample] / scale:.4g} is cut off there and in other cycles; record again "
                 "with a larger range of the sensor",
             )
-    fitted, other = first_fit(time, signals)
-    rate, frequency = sampling_rate(recording.time), fitted.frequency
-    cycles, per_cycle = duration_of(recording.time) * frequency, rate / frequency
+
+
+def time_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+    """Times that are too coarse for the samples."""
+    equal = np.flatnonzero(np.diff(recording.time) == 0.0) + 1
+    remedy = "export the time with more digits, or, if the sensor measures evenly, state excitation.rate (Hz)"
+    if recording.sampling == STAMPED and len(equal) > MOST_EQUAL * len(recording.time):
+        yield (
+            int(recording.lines[equal[0]]),
+            f"and {len(equal) - 1:,} further lines repeat the time of the line before; {remedy}",
+        )
+    elif recording.rate_error > MOST_RATE_ERROR:
+        yield None, f"has times so coarse that its rate is known to {100 * recording.rate_error:.2g} % only; {remedy}"
+
+
+def count_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """Too few cycles or too few samples in a cycle."""
+    frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
+    cycles, per_cycle = duration_of(signal.recording.time) * frequency, signal.rate / frequency
     if cycles < LEAST_CYCLES - 0.1:
         yield None, f"holds {cycles:.2g} cycles of {frequency:.3g} Hz; record at least {LEAST_CYCLES}"
-        return
-    if per_cycle < LEAST_PER_CYCLE - 0.1:
+    elif per_cycle < LEAST_PER_CYCLE - 0.1:
+        repeated = " (without lines that repeat the one before)" if signal.recording.repeated else ""
         yield (
             None,
-            f"has {per_cycle:.2g} samples in a cycle of {frequency:.4g} Hz, or the drive is faster and aliased; sample "
-            f"at least {LEAST_PER_CYCLE} times in a cycle, with the sensor's anti-aliasing filter",
+            f"has {per_cycle:.2g} samples in a cycle of {frequency:.4g} Hz{repeated}, or the drive is faster and "
+            f"aliased; sample at least {LEAST_PER_CYCLE} times in a cycle, with the sensor's anti-aliasing filter",
         )
-        return
-    if stated and stated > 0.5 * rate and abs(abs(stated - round(stated / rate) * rate) - frequency) < 0.02 * frequency:
+    elif stated and stated > 0.5 * signal.rate:
+        alias = abs(stated - round(stated / signal.rate) * signal.rate)
+        if abs(alias - frequency) < 0.02 * frequency:
+            yield (
+                None,
+                f"is sampled at {signal.rate:.4g} Hz, at which a drive of {stated:g} Hz (model.frequency) looks like "
+                f"one of {frequency:.3g} Hz (aliasing); sample at {LEAST_PER_CYCLE * stated:g} Hz or more",
+            )
+
+
+def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """Samples that are lost, that come from two sensors, or whose times are wrong."""
+    found, time = signal.modulation, signal.recording.time
+    if line := timing_line(time[: signal.fitted.residual.shape[1]], signal.fitted, found):
+        every = 1.0 / line[0] + 1.0
+        right = signal.fitted.frequency * (every - 1.0) / every
         yield (
             None,
-            f"is sampled at {rate:.4g} Hz, at which a drive of {stated:g} Hz (model.frequency) looks like one of "
-            f"{frequency:.3g} Hz (aliasing); sample at {LEAST_PER_CYCLE * stated:g} Hz or more",
+            f"has a phase that swings by {line[1]:.2g} rad over {1.0 / line[0]:.4g} samples, as no vibration does: the "
+            f"times are not those of the samples. If every {every:.3g}th sample is lost, the drive vibrates at "
+            f"{right:.5g} Hz; record without losses, or with the time of each sample",
         )
-        return
-    steady = steadiness(time, fitted)
+    elif half := alternates(found):
+        yield (
+            None,
+            f"alternates from line to line between amplitudes that differ by {200.0 * half:.2g} %, as two sensors in "
+            "one file do; keep the lines of one sensor",
+        )
+    elif found.scatter > MOST_SCATTER:
+        scatter = found.scatter / (2.0 * math.pi * signal.fitted.frequency)
+        yield (
+            None,
+            f"has times that differ by {scatter:.2g} s (standard deviation) from those of the samples; record the "
+            "time of each sample, or, if the sensor measures evenly, state excitation.rate (Hz)",
+        )
+
+
+def steadiness_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """An amplitude that changes, or a second vibration."""
+    frequency, other = signal.fitted.frequency, signal.other
+    steady = steadiness(signal.recording.time[: signal.fitted.residual.shape[1]], signal.fitted)
     if (deviation := steady["deviation"]) > max(UNSTEADY, 3.0 * steady["deviation_of_noise"]):
         yield (
             None,
             f"is not steady: its amplitude at {frequency:.4g} Hz varies by {100.0 * deviation:.2g} % (standard "
             "deviation); keep a piece in which the drive runs steadily, and record one drive alone",
         )
-        return
-    if other:
+    elif other:
         yield (
             None,
             f"vibrates at {frequency:.4g} Hz and, with {other[1]:.2g} m/s², at {other[0]:.4g} Hz, no multiple of it; "
             "record one drive alone, and use the sensor's anti-aliasing filter, because a harmonic above half the "
             "sampling rate looks like such a line",
         )
-        return
-    sizes = np.abs(fitted.amplitudes[:, 0])
-    yield from ((None, fault) for fault in unit_faults(float(np.hypot(*sizes)), frequency, fitted.offsets, unit))
-    noise = np.sqrt(4.0 * (fitted.residual**2).mean(axis=1) / len(time))
-    directions = list(DIRECTIONS.values())
+
+
+def frequency_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """A frequency other than the stated one, or one that no conveyor has."""
+    frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
+    acceleration = float(np.hypot(*signal.sizes))
+    displacement = acceleration / (2.0 * math.pi * frequency) ** 2
+    has_unit = size_fault(gravity_of(signal.fitted, 0.0), signal.recording.unit) is None
+    if has_unit and displacement > MOST_DISPLACEMENT:
+        yield (
+            None,
+            f"vibrates with {acceleration:.4g} m/s² at {frequency:.3g} Hz; the plate would move by {displacement:.3g} "
+            "m: set excitation.time_unit: ms if the times are milliseconds, or sample faster if the drive is faster "
+            "(aliasing)",
+        )
+    elif frequency > MOST_FREQUENCY:
+        yield (
+            None,
+            f"vibrates at {frequency:.5g} Hz, as no conveyor does; state the unit of its times as excitation.time_unit "
+            "(s, ms, µs, ns)",
+        )
+    elif stated and abs(frequency / stated - 1.0) > OTHER_FREQUENCY:
+        factor = frequency / stated
+        lost = f", if every {factor / (factor - 1.0):.3g}th sample is lost," if 1.0 < factor < 2.0 else ""
+        yield (
+            None,
+            f"vibrates at {frequency:.5g} Hz, but model.frequency is {stated:g}; its times are wrong by a factor of "
+            f"{factor:.5g}{lost} and its rate would be {signal.rate / factor:.5g} Hz, or set model.frequency: "
+            f"{frequency:.5g} if the drive runs at that frequency",
+        )
+
+
+def unit_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """A mean that is not gravity, or an amplitude that no conveyor has."""
+    unit, acceleration = signal.recording.unit, float(np.hypot(*signal.sizes))
+    gravity = gravity_of(signal.fitted, signal.settings.get("inclination", 0.0))
+    shown = f"vibrates with {acceleration / UNITS[unit]:.4g} {unit}, which is {acceleration:.4g} m/s²"
+    if fault := size_fault(gravity, unit):
+        yield None, fault
+    elif acceleration > MOST_ACCELERATION:
+        yield None, f"{shown}; no conveyor does: state another excitation.unit ({', '.join(UNITS)})"
+    elif acceleration < LEAST_ACCELERATION:
+        remedy = f"state another excitation.unit ({', '.join(UNITS)}; not a voltage), and record while the drive is on"
+        yield None, f"{shown}; that moves no part: {remedy}"
+    if not fault and (fault := direction_fault(signal.recording, gravity, signal.settings)):
+        yield None, fault
+
+
+def share_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """A fundamental that is missing, or too weak for its harmonics."""
+    fitted, sizes, directions = signal.fitted, signal.sizes, list(DIRECTIONS.values())
+    noise = np.sqrt(4.0 * (fitted.residual**2).mean(axis=1) / fitted.residual.shape[1])
     for axis, direction in enumerate(directions):
         if sizes[axis] < max(NO_FUNDAMENTAL * np.hypot(*sizes), 4.0 * noise[axis]):
             yield (
                 None,
-                f"shows no vibration {direction} at {frequency:.4g} Hz ({sizes[axis]:.2g} m/s²), to which shares of "
-                "harmonics and phases refer; check the columns, and excitation.mount",
+                f"shows no vibration {direction} at {fitted.frequency:.4g} Hz ({sizes[axis]:.2g} m/s²), to which "
+                "shares of harmonics and phases refer; check excitation.columns and excitation.mount",
             )
             return
     shares = np.abs(fitted.amplitudes) / sizes[:, None]
@@ -218,23 +253,43 @@ def signal_faults(recording: Recording, unit: str, stated: float | None) -> Iter
         axis, place = np.unravel_index(np.argmax(shares), shares.shape)
         yield (
             None,
-            f"vibrates {directions[axis]} {shares[axis, place]:.3g} times as much at {(place + 1) * frequency:.4g} "
-            f"Hz as at {frequency:.4g} Hz, to which shares of harmonics refer; model.harmonics take shares up to "
-            f"{MOST_SHARE:g}: check the columns and excitation.mount, and record one drive alone",
+            f"vibrates {directions[axis]} {shares[axis, place]:.3g} times as much at "
+            f"{(place + 1) * fitted.frequency:.4g} Hz as at {fitted.frequency:.4g} Hz, to which shares of harmonics "
+            f"refer; model.harmonics take shares up to {MOST_SHARE:g}: check excitation.columns and excitation.mount, "
+            "and record one drive alone",
         )
 
 
-def checked(text: str, path: str | Path, settings: dict, stated: float | None = None) -> Recording:
-    """The recording in a text; RecordingError names all faults of the text or of the signal, with file and line.
+# Where a group finds faults, the next ones would only find their consequences.
+OF_FILE, OF_TIMES = (gap_faults, reading_faults), (time_faults,)
+OF_SIGNAL = ((count_faults,), (frequency_faults, sampling_faults, unit_faults), (steadiness_faults,), (share_faults,))
 
-    settings : as in `parse`
-    stated : frequency of the config, Hz
+
+def signal_of(recording: Recording, settings: Mapping[str, Any]) -> Signal:
+    """The first samples of a recording, with their fit."""
+    time = recording.time[:CHECKED]
+    fitted, other = first_fit(time, recording.acceleration[:, :CHECKED])
+    return Signal(recording, fitted, other, modulation_of(time, fitted), settings)
+
+
+def first_faults(subject: Any, groups: tuple) -> list[tuple[int | None, str]]:
+    """Line (None for the whole file) and description of each fault that the first group with faults finds."""
+    for group in groups:
+        if faults := [fault for check in group for fault in check(subject)]:
+            return faults
+    return []
+
+
+def checked(table: Any, settings: Mapping[str, Any]) -> Recording:
+    """The recording in a table of pipeline.csv_table, whose error names all faults with file and line.
+
+    settings : as in `parse`, and optionally `inclination` (rad) of the track and the stated `frequency` (Hz)
     """
-    recording = parse(text, path, settings)
-    faults = [
-        f"{path}{'' if sample is None else f':{line_of_sample(text, sample)}'}: {fault}"
-        for sample, fault in signal_faults(recording, settings["unit"], stated)
-    ]
+    raw = parse(table, settings)
+    if faults := first_faults(raw, (OF_FILE,)):
+        raise table.error(faults)
+    recording = resolve(raw)
+    faults = first_faults(recording, (OF_TIMES,)) or first_faults(signal_of(recording, settings), OF_SIGNAL)
     if faults:
-        raise RecordingError(faults)
+        raise table.error(faults)
     return recording

@@ -21,6 +21,11 @@ GAP = 6.0  # mean intervals between two samples from which on they have a gap be
 LEAST_CYCLES = 1.5  # of the lowest frequency that is a vibration and no drift
 PIECE = 4  # cycles, at least, of a piece of the recording whose amplitude is measured
 MOST_PIECES = 50
+CHECKED_ORDERS = 8  # of a first fit
+# A further line counts from this share of the fundamental of its axis, if its power is this multiple of the noise's
+# median power nearby, and if it is this far from all multiples of the fundamental; the last two in units of 1/T.
+SHARE, OUT_OF_NOISE, NEARBY, FOOT = 0.05, 40.0, 20, 2.0
+MOST_SUBHARMONIC = 4  # the fundamental may be weaker than its harmonics up to this order
 SEARCHED = 0.6  # half width of the searched frequencies around it, in units of 1/T: less than to the next minimum
 
 
@@ -164,3 +169,40 @@ def steadiness(time: np.ndarray, fitted: Fit) -> dict[str, float]:
         "deviation_of_noise": math.sqrt(float(weights @ noise)) / float(weights.sum()),
         "drift": float(np.polyfit(middles, amplitude, 1)[0] * (centred[-1] - centred[0])),
     }
+
+
+def further_line(time: np.ndarray, fitted: Fit) -> tuple[float, float] | None:
+    """Frequency (Hz) and amplitude (m/s²) of the strongest line that is no multiple of the fundamental, or None."""
+    from scipy.ndimage import median_filter
+
+    frequencies, amplitudes = spectrum(time, fitted.residual)
+    resolution = 1.0 / duration_of(time)
+    multiple = np.round(frequencies / fitted.frequency)
+    # Where an amplitude drifts, its line has a foot.
+    own = (np.abs(frequencies - multiple * fitted.frequency) < FOOT * resolution) & (multiple > 0.0)
+    searched = ~own & (frequencies > max(fitted.frequency / (MOST_SUBHARMONIC + 0.5), 3.0 * resolution))
+    if not searched.any():
+        return None
+    # Coloured noise is strong only near some frequencies, so its median nearby counts.
+    noise = median_filter(amplitudes, (1, NEARBY * PADDING), mode="nearest")
+    shares = amplitudes / np.abs(fitted.amplitudes[:, :1])
+    counts = searched & (amplitudes**2 > OUT_OF_NOISE * noise**2) & (shares > SHARE)
+    axis, place = np.unravel_index(np.argmax(np.where(counts, shares, 0.0)), shares.shape)
+    return (float(frequencies[place]), float(amplitudes[axis, place])) if counts[axis, place] else None
+
+
+def first_fit(time: np.ndarray, signals: np.ndarray, orders: int = CHECKED_ORDERS) -> tuple[Fit, tuple | None]:
+    """The harmonics, and a line that is no multiple of their frequency, or None."""
+    rate = sampling_rate(time)
+
+    def fitted(guess: float) -> Fit:
+        return fit(time, signals, guess, min(orders, orders_of(rate, guess)))
+
+    model = fitted(strongest(time, signals)[0])
+    other = further_line(time, model)
+    # The strongest line may be a harmonic of a weaker fundamental.
+    for order in range(2, MOST_SUBHARMONIC + 1) if other else ():
+        if abs(order * other[0] - model.frequency) < 1.0 / duration_of(time):
+            model = fitted(model.frequency / order)
+            return model, further_line(time, model)
+    return model, other

@@ -5,11 +5,21 @@ import math
 import numpy as np
 from scipy.ndimage import median_filter
 
-from excitation.estimates import PARAMETERS, harmonics, noise_of, parameters
-from excitation.faults import first_fit
-from excitation.harmonics import Fit, duration_of, fit, orders_of, sampling_rate, spectrum, steadiness
-from excitation.reading import AXES, DIRECTIONS, Recording, parse
-from pipeline import fields
+from excitation.estimates import PARAMETERS, Doubt, harmonics, noise_of, parameters
+from excitation.gravity import gravity_of
+from excitation.harmonics import (
+    Fit,
+    duration_of,
+    first_fit,
+    fit,
+    orders_of,
+    sampling_rate,
+    spectrum,
+    steadiness,
+)
+from excitation.reading import AXES, DIRECTIONS, EXAMPLE, HEADER_UNITS, Recording, parse, wanted
+from excitation.sampling import resolve
+from pipeline import csv_table, fields
 
 DIGITS = 10  # of all numbers; further digits depend on the processor, and no sensor has them
 SAMPLES, POINTS, BINS = 2000, 257, 2000  # of the figure
@@ -49,9 +59,14 @@ TABLES = {
     ),
     "quality": (
         fields.count("samples", "samples of the recording"),
+        fields.count("repeated", "lines left out because they repeat the readings of the line before"),
+        fields.text("sampling", "times: stamped (as in the file), rate (as stated), rounded or even (evenly spaced)"),
+        fields.number("rate_error", "1", "relative standard error of the sampling rate from the resolution of the times"),
         fields.number("sampling_rate", "Hz", "mean number of samples per second, outside gaps"),
         fields.number("cycles", "1", "excitation cycles of the recording"),
         *by_axis("_offset", "m/s²", "gravity and offset of the sensor"),
+        fields.number("gravity", "1", "size of gravity and offset over the standard gravity"),
+        fields.number("lean", "rad", "direction of gravity and offset, forwards from the vertical of the track"),
         *by_axis("_noise", "m/s²", "root mean square of what no harmonic explains,"),
         *by_axis("_distortion", "1", "root sum of squares of the shares above the noise,"),
         fields.number(
@@ -134,19 +149,26 @@ def spectra(recording: Recording, fitted: Fit) -> dict[str, np.ndarray]:
 
 def make(measured: str, settings: dict) -> dict[str, dict]:
     """The tables from the text of the accelerometer file."""
-    recording = parse(measured, settings["measured"], settings)
+    table = csv_table.parse(measured, settings["measured"], wanted(settings), HEADER_UNITS, EXAMPLE)
+    recording = resolve(parse(table, settings))
     rate = sampling_rate(recording.time)
     first, other = first_fit(recording.time, recording.acceleration)
     fitted = fit(recording.time, recording.acceleration, first.frequency, orders_of(rate, first.frequency))
-    noise = noise_of(recording, fitted)
-    shares = harmonics(fitted, noise)
+    noise, gravity = noise_of(recording, fitted), gravity_of(fitted, settings["inclination"])
+    doubt = Doubt(gravity.mount_error, gravity.size_error, recording.rate_error)
+    shares = harmonics(fitted, noise, doubt)
     above = np.array([shares[f"{axis}_above_noise"] for axis in AXES])
     distortion = np.sqrt((np.array([shares[axis] for axis in AXES]) ** 2 * above).sum(axis=1))
-    values, errors = zip(*parameters(recording, fitted, noise).values(), strict=True)
+    values, errors = zip(*parameters(recording, fitted, noise, doubt).values(), strict=True)
     cycle = cycles_of(recording, fitted)
     chosen = np.unique(np.linspace(0, len(cycle) - 1, SAMPLES).round().astype(np.int64))
     quality = {
         "samples": len(recording.time),
+        "repeated": recording.repeated,
+        "sampling": recording.sampling,
+        "rate_error": recording.rate_error,
+        "gravity": gravity.size,
+        "lean": gravity.lean,
         "sampling_rate": rate,
         "cycles": fitted.frequency * duration_of(recording.time),
         "other_frequency": other[0] if other else math.nan,

@@ -1,40 +1,41 @@
-"""Files of an accelerometer: read the samples, and name what is wrong with the text, by file and line.
+"""Recordings of an accelerometer: from the table in a file to the plate's acceleration over time.
 
 The config check reads the file before any job starts, so this module imports nothing slower than NumPy.
 """
 
-import csv
-import difflib
-import io
 import math
 import re
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 STANDARD_GRAVITY = 9.80665  # m/s², the unit g
-UNITS = {"m/s²": 1.0, "g": STANDARD_GRAVITY}
+UNITS = {"m/s²": 1.0, "g": STANDARD_GRAVITY, "mm/s²": 1e-3, "mg": 1e-3 * STANDARD_GRAVITY}
+TIME_UNITS = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9}
+# How the header of a file may write a unit.
+SPELLINGS = {
+    **{spelling: "m/s²" for spelling in ("m/s^2", "m/s2", "m/s/s", "m/sec^2", "m/s**2", "ms^-2", "ms-2", "m s^-2")},
+    **{spelling: "mm/s²" for spelling in ("mm/s^2", "mm/s2", "mm/s/s")},
+    **{"G": "g", "gee": "g", "g0": "g", "mG": "mg", "milli-g": "mg", "sec": "s", "seconds": "s", "second": "s"},
+    **{"msec": "ms", "milliseconds": "ms", "us": "µs", "usec": "µs", "μs": "µs", "microseconds": "µs"},
+    **{"nanoseconds": "ns"},
+}
+HEADER_UNITS = (*UNITS, *TIME_UNITS, *SPELLINGS)
 # The axes of the plate, which are columns of a file, in words.
 DIRECTIONS = {"along": "along the track", "normal": "normal to the track"}
 AXES, SENSOR = tuple(DIRECTIONS), ("x", "z")  # the two pairs of columns
-NUMBER = re.compile(r"[-+]?(\d+[.,]?\d*|[.,]\d+)([eE][-+]?\d+)?")
 MOST_SAMPLES = 2_000_000  # 80 s at 25 kHz; the fit of more takes minutes and gigabytes, and gains nothing
 MOST_BYTES = 50 * MOST_SAMPLES
 LEAST_SAMPLES = 64  # eight cycles of eight samples
 MOST_FAULTS = 5
-# Share of the lines that may repeat the time of the line before, as rounded times of random samples do. Where rounding
-# makes more of them equal, it is coarse enough to blur the harmonics.
-MOST_EQUAL = 0.05
-
-
-class RecordingError(ValueError):
-    """A file of an accelerometer that cannot be used: one line for each fault, with file, line number and remedy."""
-
-    def __init__(self, faults: list[str]):
-        self.faults = faults
-        super().__init__("\n".join(faults))
+EXAMPLE = "time,along,normal"
+# Names of columns that need no `columns` in the config: phyphox writes `Acceleration x (m/s^2)`, others accel_x or ax.
+KNOWN = {"time": re.compile(r"(time|timestamp|t|(time|timestamp|t)[ _](s|ms|us|µs|ns))", re.IGNORECASE)}
+KNOWN |= {name: re.compile(name, re.IGNORECASE) for name in AXES}
+KNOWN |= {
+    name: re.compile(rf"((linear )?acc(el|eleration)?[ _.]?|a)?{name}", re.IGNORECASE) for name in SENSOR
+}
 
 
 class Recording(NamedTuple):
@@ -45,139 +46,121 @@ class Recording(NamedTuple):
     columns: tuple[str, str]  # of the readings
     readings: np.ndarray  # m/s², as the sensor has measured them, shape (2, n)
     quanta: np.ndarray  # m/s², smallest difference between two readings of each column, shape (2,)
+    lines: np.ndarray  # of the file, shape (n,)
+    names: dict[str, str]  # of the columns in the file, by `time`, `x`, …, with a minus for a reversed axis
+    unit: str  # of the readings in the file, one of UNITS
+    sampling: str = "stamped"  # how the times follow from the file; see excitation.sampling
+    repeated: int = 0  # lines that repeat the readings of the line before, and that are left out
+    rate_error: float = 0.0  # relative standard error of the sampling rate
+    resolution: float = 0.0  # s, to which uneven times are rounded
 
 
-def read_text(path: str | Path) -> str:
-    """The text of a CSV file; RecordingError says why it cannot be read."""
-    try:
-        if Path(path).stat().st_size > MOST_BYTES:
-            remedy = f"keep a piece of at most {MOST_SAMPLES:,} samples; a few hundred cycles are enough"
-            raise RecordingError([f"{path}: is larger than {MOST_BYTES:,} bytes; {remedy}"])
-        return Path(path).read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        remedy = "excitation.measured names a CSV file, relative to its overlay, or else to the working directory"
-        raise RecordingError([f"{path}: {error.strerror}; {remedy}"]) from error
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        raise RecordingError([f"{path}:{line}: is not UTF-8 text; export the table as CSV with UTF-8"]) from error
+def is_known(header: str) -> bool:
+    """Whether the header of a column says what it is, without `columns` in the config."""
+    name = re.sub(r"\s*[(\[].*", "", header.lstrip("# ")).strip()
+    return any(pattern.fullmatch(name) for pattern in KNOWN.values())
 
 
-def split(line: str, separator: str) -> list[str]:
-    """The fields of a line."""
-    return [field.strip() for field in next(csv.reader([line], delimiter=separator, skipinitialspace=True))]
+def wanted(settings: Mapping[str, Any]) -> Any:
+    """A function that says whether the header of a column is one that the settings or KNOWN name."""
+    named = {name.lstrip("-").strip().lower() for name in settings.get("columns", {}).values()}
+    named |= {name.strip().lower() for name in settings.get("columns", {}).values()}
+    return lambda header: is_known(header) or bool(named & spellings_of(header))
 
 
-def fields_of(text: str, first: int, separator: str) -> Iterator[tuple[int, list[str]]]:
-    """Line number and fields of each line from line `first` on, without comments and empty lines."""
-    for line, content in enumerate(text.splitlines(), 1):
-        stripped = content.strip()
-        if line >= first and stripped and stripped[0] != "#":
-            yield line, split(stripped, separator)
+def spellings_of(header: str) -> set[str]:
+    """The names under which the config may state a column: with and without its unit and a leading #."""
+    whole = header.strip().lower()
+    bare = whole.lstrip("# ")
+    return {whole, bare, re.sub(r"\s*[(\[][^()\[\]]*[)\]]$", "", bare)}
 
 
-def header_of(text: str) -> tuple[int, list[str], str]:
-    """Line number of the header, the names of its columns, and what separates them."""
-    for line, content in enumerate(text.splitlines(), 1):
-        stripped = content.strip()
-        # Excel's line that names the separator.
-        if stripped and not stripped.startswith("#") and not re.fullmatch(r'"?sep=."?', stripped):
-            separator = next((one for one in ";\t" if one in content), ",")
-            return line, [name.lower() for name in split(stripped, separator)], separator
-    return 1, [], ","
+def quote(name: str) -> str:
+    """A name as YAML."""
+    return name if re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) else f'"{name}"'
 
 
-def header_faults(names: list[str]) -> list[str]:
-    """The faults of the header."""
-    if not names:
-        return ["is empty; the first line names the columns, such as time,along,normal"]
-    if any(NUMBER.fullmatch(name) for name in names):
-        return ["begins with numbers; the first line must name the columns, such as time,along,normal"]
-    known = ("time", *AXES, *SENSOR)
-    if twice := sorted({name for name in names if name in known and names.count(name) > 1}):
-        return [f"has the column {twice[0]} twice; keep one"]
-    complete = [pair for pair in (AXES, SENSOR) if set(pair) <= set(names)]
-    if len(complete) == 2:
-        return ["has both along, normal and x, z; keep one pair"]
-    if complete and "time" in names:
-        return []
-    missing = ("time", *(complete or [SENSOR if {*SENSOR} & {*names} else AXES])[0])
-    faults = []
-    for name in (name for name in missing if name not in names):
-        like = [other for other in names if other not in known]
-        base = [other for other in like if re.split(r"[\s(\[_]", other)[0] in (name, name[0])]
-        guess = next(iter(base or difflib.get_close_matches(name, like, n=1)), None)
-        remedy = f"rename {guess!r} to {name}, without a unit" if guess else "add it"
-        faults.append(f"has no column {name}; {remedy} (columns: time in s, and along, normal or x, z)")
-    return faults
+def columns_entry(names: Mapping[str, str]) -> str:
+    """The entry `excitation.columns` of the config."""
+    return "excitation.columns: {" + ", ".join(f"{key}: {quote(name)}" for key, name in names.items()) + "}"
 
 
-def value_of(name: str, text: str, separator: str) -> float:
-    """The number in a field; ValueError states its fault."""
-    shown = f"{name} = {text[:40]!r}"
-    if not text:
-        raise ValueError(f"has no {name}; delete the line")
-    if text.lstrip("+-").lower() in ("nan", "inf", "infinity"):
-        raise ValueError(f"{shown} is not a measured number; delete the line")
-    if not NUMBER.fullmatch(text):
-        raise ValueError(f"{shown} is text; write a number without its unit")
-    if "," in text and separator == ",":
-        raise ValueError(f"{shown} has a decimal comma; write {text.replace(',', '.')}")
-    if not math.isfinite(value := float(text.replace(",", "."))):
-        raise ValueError(f"{shown} is not a measured number; delete the line")
-    return value
-
-
-def read_slowly(
-    text: str, path: str | Path, first: int, names: list[str], separator: str, used: tuple[str, ...]
-) -> np.ndarray:
-    """The columns `used`, shape (3, n), line by line; RecordingError names each line that has a fault."""
-    rows, faults, equal, before = [], [], [], -math.inf
-    places = [names.index(name) for name in used]
-    for line, fields in fields_of(text, first + 1, separator):
-        try:
-            if len(fields) != len(names):
-                if separator == "," and len(fields) >= 2 * len(names) - 1:
-                    raise ValueError(
-                        f"has {len(fields)} values for {len(names)} columns, perhaps because of decimal commas; "
-                        "export with semicolons between columns, or with points in numbers"
-                    )
-                raise ValueError(f"has {len(fields)} values for {len(names)} columns; leave no field out")
-            row = [value_of(name, fields[place], separator) for name, place in zip(used, places, strict=True)]
-            if row[0] < before:
-                raise ValueError(f"time = {fields[places[0]]} is earlier than the line before; sort the lines")
-            if row[0] == before:
-                equal.append(line)
-            before = row[0]
-            rows.append(row)
-        except ValueError as error:
-            faults.append(f"{path}:{line}: {error}")
-            if len(faults) == MOST_FAULTS:
-                break
-    if not faults and len(equal) > MOST_EQUAL * len(rows):
-        count = f"and {len(equal) - 1:,} further lines repeat" if len(equal) > 1 else "repeats"
-        remedy = "export the time with more digits, or each line once"
-        faults = [f"{path}:{equal[0]}: {count} the time of the line before; {remedy}"]
+def find_columns(table: Any, settings: Mapping[str, Any]) -> tuple[dict[str, str], dict[str, int], list[str]]:
+    """Names of the columns with their signs, their places in the table, and faults."""
+    stated, names = settings.get("columns", {}), table.names
+    lower = [name.lower() for name in names]
+    found, places, faults = {}, {}, []
+    for key, name in stated.items():
+        sign, bare = ("-", name[1:]) if name.startswith("-") and name.lower() not in lower else ("", name)
+        matches = [place for place, one in enumerate(lower) if one in spellings_of(bare)]
+        if len(matches) == 1:
+            found[key], places[key] = sign + names[matches[0]], matches[0]
+        elif matches:
+            faults.append(f"has the column {bare!r} twice, so excitation.columns.{key} names two; rename one")
+        else:
+            there = ", ".join(quote(one) for one in names)
+            faults.append(f"has no column {bare!r}, which excitation.columns.{key} names; there are {there}")
+    pairs = [pair for pair in (AXES, SENSOR) if {*pair} & {*stated}]
+    if len(pairs) == 2:
+        faults.append("has x, z and along, normal in excitation.columns; name one pair")
+    exact = [pair for pair in (AXES, SENSOR) if set(pair) <= set(lower)]
+    if not pairs and len(exact) == 2:
+        faults.append("has both along, normal and x, z; name one pair in excitation.columns")
     if faults:
-        raise RecordingError(faults)
-    return np.array(rows, dtype=np.float64).reshape(-1, len(used)).T
+        return found, places, faults
+    partial = [pair for pair in (AXES, SENSOR) if any(KNOWN[key].fullmatch(name) for key in pair for name in names)]
+    pair = (pairs or exact or partial or [AXES])[0]
+    missing = []
+    for key in (*(() if "rate" in settings else ("time",)), *pair):
+        if key in found:
+            continue
+        matches = [place for place, name in enumerate(names) if place not in places.values() and name.lower() == key]
+        matches = matches or [place for place, name in enumerate(names) if KNOWN[key].fullmatch(name)]
+        if len(matches) == 1:
+            found[key], places[key] = names[matches[0]], matches[0]
+        elif len(matches) > 1 and len({lower[place] for place in matches}) == 1:
+            faults.append(f"has the column {lower[matches[0]]} twice; keep one, or rename one")
+        else:
+            missing.append(key)
+    if missing and not faults:
+        guess = {key: found.get(key) or guess_column(key, names, found) for key in ("time", *pair)}
+        if "rate" in settings:
+            del guess["time"]
+        there = ", ".join(quote(one) for one in names)
+        or_rate = ", or state excitation.rate (Hz) in place of a time" if "time" in missing else ""
+        faults.append(
+            f"has no column {' and no column '.join(missing)}; there are {there}. Say which is which by "
+            f"{columns_entry(guess)} (or x and z){or_rate}"
+        )
+    return found, places, faults
 
 
-def read_columns(
-    text: str, path: str | Path, first: int, names: list[str], separator: str, used: tuple[str, ...]
-) -> np.ndarray:
-    """The columns `used`, shape (3, n), by NumPy's reader, which is fast but names no faults."""
-    body = "\n".join(text.splitlines()[first:])
-    if separator != ",":
-        body = body.replace(",", ".")
-    try:
-        rows = np.loadtxt(io.StringIO(body), delimiter=separator, ndmin=2)
-        columns = rows[:, [names.index(name) for name in used]].T
-    except (ValueError, IndexError):
-        return read_slowly(text, path, first, names, separator, used)
-    steps = np.diff(columns[0])
-    is_ascending = (steps >= 0.0).all() and np.count_nonzero(steps == 0.0) <= MOST_EQUAL * len(rows)
-    is_right = rows.shape[1] == len(names) and np.isfinite(columns).all() and is_ascending
-    return columns if is_right else read_slowly(text, path, first, names, separator, used)
+def guess_column(key: str, names: list[str], found: Mapping[str, str]) -> str:
+    """The column that is most like a key, for messages."""
+    import difflib
+
+    free = [name for name in names if name not in found.values()]
+    close = difflib.get_close_matches(key, [name.lower() for name in free], n=1, cutoff=0.5)
+    return next((name for name in free if close and name.lower() == close[0]), "…")
+
+
+def unit_of(stated: str | None, headers: list[str], units: Mapping[str, float], key: str) -> tuple[str, list[str]]:
+    """The unit of columns, from the config, the header, or else the first of `units`, and faults."""
+    given = {SPELLINGS.get(header, header) for header in headers if header}
+    shown = " and ".join(sorted(given))
+    if len(given) > 1 and not stated:
+        return shown, [f"states the units {shown}; state excitation.{key} ({', '.join(units)})"]
+    named = next(iter(given), None)
+    if stated and named in units and named != stated:
+        return stated, [
+            f"states the unit {shown}, but excitation.{key} is {stated}; leave {key} out of the config, or correct the "
+            "header"
+        ]
+    if stated or named is None:
+        return stated or next(iter(units)), []
+    if named not in units:
+        return named, [f"states the unit {shown!r}; state excitation.{key} ({', '.join(units)})"]
+    return named, []
 
 
 def quantum(readings: np.ndarray) -> float:
@@ -187,36 +170,70 @@ def quantum(readings: np.ndarray) -> float:
     return float(steps.min()) if len(steps) else 0.0
 
 
-def parse(text: str, path: str | Path, settings: Mapping[str, Any]) -> Recording:
-    """The recording in a CSV text; RecordingError names every fault with file and line.
-
-    settings : `unit`, one of UNITS, and `mount` (rad), the angle of the sensor
-    """
-    if "\x00" in text:
-        raise RecordingError([f"{path}:1: is not a CSV text; export the table as CSV with UTF-8"])
-    first, names, separator = header_of(text)
-    if faults := header_faults(names):
-        raise RecordingError([f"{path}:{first}: {fault}" for fault in faults])
-    pair = AXES if set(AXES) <= set(names) else SENSOR
-    mount = settings["mount"]
-    if pair == AXES and mount != 0.0:
-        remedy = "name the columns x and z, or leave mount out"
-        raise RecordingError([f"{path}:{first}: excitation.mount = {mount} turns the columns x, z only; {remedy}"])
-    time, *readings = read_columns(text, path, first, names, separator, ("time", *pair))
-    if len(time) < LEAST_SAMPLES:
-        last = len(text.splitlines())
-        remedy = "record at least eight cycles with eight samples each"
-        raise RecordingError([f"{path}:{last}: ends after {len(time)} samples; {remedy}"])
-    if len(time) > MOST_SAMPLES:
-        remedy = "keep a piece of the file; a few hundred cycles are enough"
-        raise RecordingError([f"{path}: has {len(time):,} samples, more than {MOST_SAMPLES:,}; {remedy}"])
-    measured = UNITS[settings["unit"]] * np.array(readings)
+def turn(readings: np.ndarray, mount: float) -> np.ndarray:
+    """Readings of a sensor whose x axis points by `mount` (rad) above the track, along and normal to the track."""
     cosine, sine = math.cos(mount), math.sin(mount)
-    turned = np.array([measured[0] * cosine - measured[1] * sine, measured[0] * sine + measured[1] * cosine])
-    return Recording(time, turned, pair, measured, np.array([quantum(one) for one in measured]))
+    return np.array([readings[0] * cosine - readings[1] * sine, readings[0] * sine + readings[1] * cosine])
 
 
-def line_of_sample(text: str, sample: int) -> int:
-    """The line of a file that holds a sample."""
-    first, _, separator = header_of(text)
-    return next(line for place, (line, _) in enumerate(fields_of(text, first + 1, separator)) if place == sample)
+def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
+    """The recording in a table of pipeline.csv_table; its error names every fault with file and line.
+
+    settings : `mount` (rad), the angle of the sensor, and optionally `unit`, `columns`, `time_unit` and `rate` (Hz)
+    """
+    names, places, faults = find_columns(table, settings)
+    if faults:
+        raise table.error((table.header, fault) for fault in faults)
+    pair = AXES if AXES[0] in names else SENSOR
+    units = [table.units[places[key]] for key in pair]
+    unit, faults = unit_of(settings.get("unit"), units, UNITS, "unit")
+    mount, rate = settings["mount"], settings.get("rate")
+    if pair == AXES and mount != 0.0:
+        remedy = f"name the columns by {columns_entry(rename(names))}, or leave mount out"
+        faults.append(f"has columns along and normal, but excitation.mount = {mount} turns x and z only; {remedy}")
+    if rate is None:
+        written = re.search(r"[ _](ms|us|µs|ns)$", names["time"], re.IGNORECASE)
+        header = table.units[places["time"]] or (written[1].lower() if written else "")
+        time_unit, more = unit_of(settings.get("time_unit"), [header], TIME_UNITS, "time_unit")
+        faults += more
+    if faults:
+        raise table.error((table.header, fault) for fault in faults)
+    readings, lines = [], table.lines
+    for key in pair:
+        values, wrong = table.numbers(places[key], key)
+        readings.append(-values if names[key].startswith("-") and names[key] not in table.names else values)
+        faults += wrong
+    if rate is None:
+        time, wrong = table.seconds(places["time"], TIME_UNITS[time_unit])
+        faults += wrong
+    else:
+        time = np.arange(len(lines)) / rate
+    if len(lines) < LEAST_SAMPLES:
+        remedy = "record at least eight cycles with eight samples each"
+        faults.append((int(lines[-1]) if len(lines) else table.header, f"ends after {len(lines)} samples; {remedy}"))
+    if len(lines) > MOST_SAMPLES:
+        remedy = "keep a piece of the file; a few hundred cycles are enough"
+        faults.append((None, f"has {len(lines):,} samples, more than {MOST_SAMPLES:,}; {remedy}"))
+    if faults:
+        raise table.error(shorten(faults))
+    measured = UNITS[unit] * np.array(readings)
+    quanta = np.array([quantum(one) for one in measured])
+    return Recording(
+        *(time, turn(measured, mount), pair, measured, quanta, lines, names, unit),
+        sampling="stamped" if rate is None else "rate",
+    )
+
+
+def rename(names: Mapping[str, str]) -> dict[str, str]:
+    """The columns along and normal as x and z of a sensor."""
+    keys = dict(zip(AXES, SENSOR, strict=True))
+    return {keys.get(key, key): name for key, name in names.items()}
+
+
+def shorten(faults: list) -> list:
+    """The first faults in the order of their lines, the remedy of equal ones once."""
+    faults = sorted(faults, key=lambda fault: fault[0] or 0)
+    if len(faults) <= MOST_FAULTS:
+        return faults
+    line, last = faults[MOST_FAULTS - 1]
+    return [*faults[: MOST_FAULTS - 1], (line, f"{last} ({len(faults) - MOST_FAULTS:,} further lines have faults)")]

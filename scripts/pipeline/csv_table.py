@@ -1,0 +1,287 @@
+"""Tables of measured numbers in text files as loggers and spreadsheets write them: find the header, separator and signs
+of the numbers, and name what is wrong with the text, by file and line.
+
+The Snakefile imports this module to check files before any job starts, so pandas is imported when there is a file.
+"""
+
+import csv
+import gzip
+import io
+import re
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+MOST_FAULTS = 5  # that a message names
+SAMPLED = 300  # lines that show how a file separates its columns
+SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", " ": "spaces"}
+NUMBER = re.compile(r"[-+]?(\d[\d.,'\u00a0\u202f]*|[.,]\d+)([eE][-+]?\d+)?")
+CLOCK = re.compile(r"([-\d]+[T ])?\d{1,2}:\d{2}(:\d{2}([.,]\d+)?)?(Z|[-+]\d{2}:?\d{2})?")
+# A unit behind a name: Time (ms), accel [g], and in a line of its own: (s), m/s^2.
+UNIT = re.compile(r"\s*[(\[]([^()\[\]]*)[)\]]$")
+DAY = 86_400.0  # s
+EXCEL_LINE = re.compile(r'"?sep=."?')
+
+
+class TableError(ValueError):
+    """A file that cannot be used: one line for each fault, with file, line number and remedy."""
+
+    def __init__(self, faults: list[str]):
+        self.faults = faults
+        super().__init__("\n".join(faults))
+
+
+class Table(NamedTuple):
+    """The fields of a text file."""
+
+    path: str
+    header: int  # line of the file
+    names: list[str]  # of the columns, without units
+    units: list[str]  # of the columns; empty if not stated
+    lines: Any  # line of the file for each row, array of shape (n,)
+    fields: Any  # data frame of texts, one column for each name, n rows
+    signs: tuple[str, str]  # decimal sign, and the sign between thousands (may be empty)
+
+    def error(self, faults: Iterable[tuple[int | None, str]]) -> TableError:
+        """The error that names faults, each with its line (None: the whole file)."""
+        return TableError([f"{self.path}{'' if line is None else f':{line}'}: {fault}" for line, fault in faults])
+
+    def numbers(self, place: int, name: str) -> tuple[Any, list[tuple[int, str]]]:
+        """The numbers in a column as an array, and line and description of each text that is no number."""
+        import numpy as np
+
+        values = to_numbers(self.fields[place], self.signs)
+        wrong = np.flatnonzero(~np.isfinite(values))
+        return values, [(int(self.lines[row]), number_fault(name, self.fields[place][row])) for row in wrong]
+
+    def seconds(self, place: int, scale: float) -> tuple[Any, list[tuple[int, str]]]:
+        """Times (s) from the first one on, from numbers in units of `scale` s, clock times or ISO dates; and faults."""
+        import numpy as np
+
+        texts = self.fields[place]
+        if texts.str.contains(":", regex=False).mean() > 0.5:
+            time = clock_seconds(texts)
+        else:
+            numbers, _ = self.numbers(place, "time")
+            time = (numbers - (numbers[0] if len(numbers) and np.isfinite(numbers[0]) else 0)) * scale
+        faults = [(int(self.lines[row]), number_fault("time", texts[row])) for row in np.flatnonzero(~np.isfinite(time))]
+        for row in np.flatnonzero(np.diff(time) < 0.0) + 1:
+            remedy = "sort the lines, or state excitation.rate (Hz) in place of the times"
+            faults.append((int(self.lines[row]), f"time = {texts[row]} is earlier than the line before; {remedy}"))
+        return time, faults
+
+
+def decode(content: bytes, path: str | Path = "") -> str:
+    """The text of a file: UTF-8, UTF-16 with a mark, or Latin-1, also compressed by gzip."""
+    try:
+        content = gzip.decompress(content) if content.startswith(b"\x1f\x8b") else content
+    except (OSError, EOFError) as error:
+        raise TableError([f"{path}: cannot be unpacked ({error}); compress it again"]) from error
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        return content.decode("utf-16", errors="replace")
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return content.decode("latin-1")
+
+
+def read_text(path: str | Path, key: str, most_bytes: int) -> str:
+    """The text of the file that a key of the config names; TableError says why it cannot be read."""
+    try:
+        if Path(path).stat().st_size > most_bytes:
+            raise TableError([f"{path}: is larger than {most_bytes:,} bytes; keep a piece of the file"])
+        text = decode(Path(path).read_bytes(), path)
+    except OSError as error:
+        remedy = f"{key} names a CSV file, relative to its overlay, or else to the working directory"
+        raise TableError([f"{path}: {error.strerror}; {remedy}"]) from error
+    if "\x00" in text or text.startswith("PK\x03\x04"):
+        raise TableError([f"{path}:1: is not text; export the table as CSV"])
+    return text
+
+
+def split(line: str, separator: str) -> list[str]:
+    """The fields of a line."""
+    if separator == " ":
+        return next(csv.reader([re.sub(r"\s+", " ", line.strip())], delimiter=" "))
+    return [field.strip() for field in next(csv.reader([line.strip(" \r")], delimiter=separator, skipinitialspace=True))]
+
+
+def is_value(field: str) -> bool:
+    """Whether a field is a number, a date or a time."""
+    return bool(NUMBER.fullmatch(field) or CLOCK.fullmatch(field))
+
+
+def values_in(line: str, separator: str) -> int:
+    """The number of fields that are values, 0 if it is less than two."""
+    count = sum(map(is_value, split(line, separator)))
+    return count if count > 1 else 0
+
+
+def separator_of(lines: Sequence[str]) -> str:
+    """The separator with which most lines hold values; of two, the first in SEPARATORS."""
+    step = max(1, len(lines) // SAMPLED)
+    return max(SEPARATORS, key=lambda one: sum(values_in(line, one) > 0 for line in lines[::step]))
+
+
+def name_and_unit(header: str) -> tuple[str, str]:
+    """The name of a column and its unit: `Time (ms)` is `Time` in `ms`."""
+    name = header.strip().lstrip("#").strip()
+    unit = UNIT.search(name)
+    return (name[: unit.start()].strip(), unit[1].strip()) if unit and unit.start() else (name, "")
+
+
+def is_unit_line(fields: list[str], units: Iterable[str]) -> bool:
+    """Whether the line below a header states units."""
+    given = [field for field in fields if field]
+    return bool(given) and all(UNIT.fullmatch(field) or field in units for field in given)
+
+
+def find_header(lines: Sequence[tuple[int, str]], separator: str, is_known: Callable[[str], bool]) -> int | None:
+    """The place of the line above the values that names most known columns, or else of the last line of several names.
+
+    A commented line counts if no other line names a column.
+    """
+    first = next((place for place, (_, line) in enumerate(lines) if values_in(line, separator)), len(lines))
+    candidates = []
+    for place, (_, line) in enumerate(lines[: first + 1]):
+        fields = split(line.lstrip("#"), separator)
+        known = sum(is_known(field) for field in fields)
+        is_comment = line.startswith("#")
+        if known or (place < first and len(fields) > 1 and not is_comment):
+            candidates.append(((known > 0) + (known > 0 and not is_comment), known, place))
+    return max(candidates)[2] if candidates else None
+
+
+def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: Iterable[str], example: str) -> Table:
+    """The table in a text; TableError says why there is none.
+
+    is_known : whether a column with this name is one that is looked for
+    units : that the line below the header may state
+    example : a header, for messages
+    """
+    import numpy as np
+    import pandas as pd
+
+    content = [(number, line.strip(" \r")) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
+    content = [(number, line) for number, line in content if not EXCEL_LINE.fullmatch(line)]
+    if all(line.startswith("#") for _, line in content):
+        raise TableError([f"{path}:1: is empty; the first line names the columns, such as {example}"])
+    try:
+        separator = separator_of([line for _, line in content if not line.startswith("#")])
+        place = find_header(content, separator, is_known)
+        if place is None:
+            number = next(number for number, line in content if not line.startswith("#"))
+            remedy = f"a line above the values must name the columns, such as {example}, separated like the values"
+            raise TableError([f"{path}:{number}: begins without names; {remedy}"])
+        header, line = content[place]
+        names, units_of = map(list, zip(*map(name_and_unit, split(line.lstrip("# "), separator)), strict=True))
+        rows = [(number, line) for number, line in content[place + 1 :] if not line.lstrip('"').startswith("#")]
+        if rows and is_unit_line(stated := split(rows[0][1], separator), units):
+            units_of = [UNIT.sub(r"\1", one) or own for one, own in zip([*stated, *names], units_of, strict=False)]
+            rows = rows[1:]
+        widths = np.array([widths_of(line, separator) for _, line in rows], dtype=np.int64)
+    except csv.Error as error:
+        raise TableError([f"{path}: is not CSV ({error}); export the table as CSV"]) from error
+    while names and not names[-1]:  # a separator at the end of the line
+        names, units_of = names[:-1], units_of[:-1]
+    lines, faults = np.array([number for number, _ in rows], dtype=np.int64), []
+    for row in np.flatnonzero((widths < len(names)) | (widths > len(names) + 1))[:MOST_FAULTS]:
+        remedy = "leave no field out, and separate columns by semicolons if numbers have commas"
+        faults.append(f"{path}:{lines[row]}: has {widths[row]} values for {len(names)} columns; {remedy}")
+    for row in np.flatnonzero(widths == len(names) + 1):
+        if len(faults) < MOST_FAULTS and (more := split(rows[row][1], separator)[-1]):
+            faults.append(f"{path}:{lines[row]}: has {more!r} behind the last of {len(names)} columns; name the column")
+    if faults:
+        raise TableError(faults)
+    options = {"header": None, "names": range(len(names) + 1), "dtype": str, "keep_default_na": False}
+    try:
+        fields = pd.read_csv(
+            io.StringIO("\n".join(line for _, line in rows)),
+            sep=r"\s+" if separator == " " else separator,
+            skipinitialspace=True,
+            index_col=False,
+            **options,
+        )
+    except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
+        fields, reason = None, str(error)
+    if rows and (fields is None or len(fields) != len(rows)):
+        reason = reason if fields is None else "a quote is not closed"
+        raise TableError([f"{path}:{lines[-1]}: is not CSV ({reason}); export the table as CSV"])
+    fields = pd.DataFrame(columns=range(len(names) + 1), dtype=str) if fields is None else fields
+    fields = fields[range(len(names))].apply(lambda one: one.str.strip())
+    return Table(str(path), header, names, units_of, lines, fields, number_signs([fields[one] for one in fields]))
+
+
+def widths_of(line: str, separator: str) -> int:
+    """The number of fields of a line."""
+    if '"' in line or separator == " ":
+        return len(split(line, separator))
+    return line.count(separator) + 1
+
+
+def number_signs(fields: Sequence[Any]) -> tuple[str, str]:
+    """The decimal sign and the sign between thousands (may be empty) in columns of texts.
+
+    A comma alone is decimal, unless a number has two of them, or each stands before three digits while other numbers
+    have a point or are too short for thousands.
+    """
+    fields = [one[one.str.fullmatch(NUMBER.pattern)] for one in fields]
+    commas = [one[one.str.contains(",", regex=False)] for one in fields]
+    points = any(one.str.contains(".", regex=False).any() for one in fields)
+    if not any(map(len, commas)):
+        twice = any(one.str.contains(r"\..*\.").any() for one in fields)
+        return (",", ".") if twice else (".", "")
+    for one in commas:
+        if (both := one[one.str.contains(".", regex=False)]).size:
+            is_point_last = both.str.rfind(".") > both.str.rfind(",")
+            return (".", ",") if is_point_last.all() else (",", ".")
+    if any(one.str.contains(r",.*,").any() for one in commas):
+        return ".", ","
+    grouped = all(one.str.fullmatch(r"[-+]?[1-9]\d{0,2},\d{3}").all() for one in commas)
+    short = any(one.str.fullmatch(r"[-+]?\d{1,3}").any() for one in fields)
+    return (".", ",") if grouped and (points or short) else (",", "")
+
+
+def to_numbers(texts: Any, signs: tuple[str, str]) -> Any:
+    """The numbers in a column of texts, with the signs of `number_signs`; NaN for other texts. Integers stay integers."""
+    import pandas as pd
+
+    decimal, thousands = signs
+    texts = texts.str.replace(r"(?<=\d)[\u00a0\u202f'](?=\d{3})", "", regex=True)
+    if thousands:
+        one = re.escape(thousands)
+        is_grouped = texts.str.fullmatch(rf"[-+]?\d{{1,3}}({one}\d{{3}})*([^{one}\d].*)?|[^{one}]*")
+        texts = texts.where(is_grouped, "").str.replace(thousands, "", regex=False)
+    if decimal == ",":
+        # A point beside decimal commas is no number.
+        texts = texts.where(~texts.str.contains(".", regex=False), "").str.replace(",", ".", regex=False)
+    texts = texts.where(~texts.str.contains("_", regex=False), "")
+    return pd.to_numeric(texts, errors="coerce").to_numpy()
+
+
+def clock_seconds(texts: Any) -> Any:
+    """Times (s) from the first one on, of clock times, also past midnight, or of ISO dates; NaN for other texts."""
+    import numpy as np
+    import pandas as pd
+
+    clock = texts.str.replace(",", ".", regex=False)
+    if clock.str.contains(r"\d-\d").mean() > 0.5:
+        moments = pd.to_datetime(clock, format="ISO8601", utc=True, errors="coerce")
+    else:
+        is_short = clock.str.count(":") == 1  # minutes and seconds
+        moments = pd.to_timedelta(clock.where(~is_short, "00:" + clock), errors="coerce")
+    elapsed = moments - moments.iloc[0]
+    time = (elapsed / pd.Timedelta(1, "s")).to_numpy(dtype=np.float64)
+    return time + DAY * np.cumsum(np.diff(time, prepend=time[:1]) < -0.5 * DAY)
+
+
+def number_fault(name: str, text: str) -> str:
+    """Why a text is not a measured number, with the remedy."""
+    shown = f"{name} = {text[:40]!r}"
+    if not text:
+        return f"has no {name}; fill it in, or delete the line"
+    if text.lstrip("+-").lower() in ("nan", "inf", "infinity") or re.fullmatch(r"[-+]?[\d.]+[eE]\+?\d+", text):
+        return f"{shown} is not a measured number; delete the line"
+    if re.fullmatch(r"[-+]?\d*,\d+", text):
+        return f"{shown} has a decimal comma, other numbers have points; write {text.replace(',', '.')}"
+    return f"{shown} is text; write a number without its unit"
