@@ -22,7 +22,7 @@ from typing import Any
 # Snakemake puts this folder last on the path; an installed copy of the library would come first.
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from pipeline import fields, tables
+from pipeline import csv_table, fields, tables
 from pipeline.rule_log import COMPILED, logged
 
 
@@ -30,7 +30,7 @@ def read(path: str, expected: dict[str, list]) -> Any:
     """An input: a table, a text, or the path of a picture."""
     if path.endswith(".parquet"):
         return tables.read(path, *expected[path])
-    return path if path.endswith(".png") else Path(path).read_text(encoding="utf-8-sig")
+    return path if path.endswith(".png") else csv_table.decode(Path(path).read_bytes(), path)
 
 
 def read_inputs(paths: dict[str, Any], expected: dict[str, list]) -> dict[str, Any]:

@@ -14,11 +14,11 @@ from calibration.inference import (
     search,
     summarize_parameters,
 )
-from calibration.measurements import CALIBRATED, Measurement, parse
+from calibration.measurements import CALIBRATED, EXAMPLE, HEADER_UNITS, Measurement, parse, wanted
 from calibration.model_check import check_fit, compare_alternatives
 from calibration.search_space import values_at
 from conveyor import RANGES, UNITS
-from pipeline import fields
+from pipeline import csv_table, fields
 
 TABLES = {
     "parameters": (
@@ -97,6 +97,7 @@ def calibrate(
 
 def make(measurements: str, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, dict]:
     """The tables from the text of the file of measurements."""
-    measured = parse(measurements, settings["measurements"], settings, RANGES)
+    table = csv_table.parse(measurements, settings["measurements"], wanted(RANGES), HEADER_UNITS, EXAMPLE)
+    measured = parse(table, settings, RANGES)
     settings = settings | sizes_of(settings["effort"])
     return calibrate(measured, settings, threads=threads, progress=progress)

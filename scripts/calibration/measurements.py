@@ -3,14 +3,11 @@
 The Snakefile imports this module to check the file before any job starts, so it imports nothing slow.
 """
 
-import csv
 import difflib
-import io
 import itertools
 import math
 import re
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from statistics import median
 from typing import Any, NamedTuple
 
@@ -29,19 +26,19 @@ INITIAL = ("z0", "vz0", "psi0")
 DEFAULTS = {"duration": 1.0, "before": 1.0}  # s
 # Parameters that a calibration can search. A row cannot have its own value of a searched parameter.
 CALIBRATED = ("friction", "damping", "stiffness", "angle", "inclination", "phase_shift", "exponent")
-NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+# Units that the header may state: the SI unit, and the factor to it.
+HEADER_UNITS = {
+    **{name: ("m/s²", 1.0) for name in ("m/s²", "m/s^2", "m/s2")},
+    **{name: ("m/s²", 1e-3) for name in ("mm/s²", "mm/s^2", "mm/s2")},
+    "g": ("m/s²", 9.80665),
+    **{"m/s": ("m/s", 1.0), "cm/s": ("m/s", 1e-2), "mm/s": ("m/s", 1e-3), "m/min": ("m/s", 1.0 / 60.0)},
+    **{"s": ("s", 1.0), "ms": ("s", 1e-3)},
+}
+EXAMPLE = "acceleration,velocity"
 MOST_ROWS = 1000
-MOST_BYTES = 1_000_000
+MOST_BYTES = 1_000_000  # of the file
 # No friction drives a part faster than the plate. Noise may make it seem a little faster; other units, much faster.
 TOO_FAST = 2.0
-
-
-class MeasurementError(ValueError):
-    """A file of measurements that cannot be used: one line for each fault, with file, line number and remedy."""
-
-    def __init__(self, faults: list[str]):
-        self.faults = faults
-        super().__init__("\n".join(faults))
 
 
 class Measurement(NamedTuple):
@@ -54,20 +51,6 @@ class Measurement(NamedTuple):
     duration: float  # s
     before: float  # s
     changed: dict[str, float]  # parameters of the model and initial conditions of this row
-
-
-def read_text(path: str | Path) -> str:
-    """The text of a CSV file; MeasurementError says why it cannot be read."""
-    try:
-        if Path(path).stat().st_size > MOST_BYTES:
-            raise MeasurementError([f"{path}: is larger than {MOST_BYTES:,} bytes; give a CSV file of measurements"])
-        return Path(path).read_bytes().decode("utf-8-sig")
-    except OSError as error:
-        remedy = "calibration.measurements names a CSV file, relative to its overlay, or else to the working directory"
-        raise MeasurementError([f"{path}: {error.strerror}; {remedy}"]) from error
-    except UnicodeDecodeError as error:
-        line = error.object[: error.start].count(b"\n") + 1
-        raise MeasurementError([f"{path}:{line}: is not UTF-8 text; export the table as CSV with UTF-8"]) from error
 
 
 def first_comments(text: str) -> list[str]:
@@ -90,50 +73,32 @@ def unknown_column(name: str, known: Mapping) -> str:
     if name in CALIBRATED:  # the others are known
         remedy = f"delete the column, or take {name} out of calibration.parameters"
         return f"has the column {name}, but the calibration searches one {name} for all lines; {remedy}"
-    base = re.split(r"[\s(\[]", name.strip().lower())[0]
-    guess = base if base in known else next(iter(difflib.get_close_matches(name.lower(), known, n=1)), None)
+    guess = next(iter(difflib.get_close_matches(name, known, n=1)), None)
     remedy = f"did you mean {guess}?" if guess else f"there are {', '.join(known)}"
     return f"has the unknown column {name[:60]!r}; {remedy}"
 
 
-def check_header(header: list[str], known: Mapping) -> list[str]:
-    """The faults of the first line."""
-    faults = []
-    if header[0].lower().startswith("sep="):
-        return [f"is the line {','.join(header)!r}, which only Excel reads; delete it"]
-    if len(header) == 1 and (";" in header[0] or "\t" in header[0]):
-        kind = "semicolons" if ";" in header[0] else "tabs"
-        return [f"separates columns by {kind}; export the table with commas, and with points in numbers (0.05)"]
-    for name in header:
-        if name not in known:
-            faults.append(unknown_column(name, known))
-    faults += [f"has the column {name} twice; keep one" for name in sorted(set(header)) if header.count(name) > 1]
-    missing = [name for name in REQUIRED if name not in header]
-    if any(NUMBER.fullmatch(name) for name in header):
-        return ["begins with numbers; the first line must name the columns, such as acceleration,velocity"]
-    faults += [f"has no column {name} ({COLUMNS[name][0]}); add it" for name in missing]
-    return faults
+def header_faults(names: list[str], units: list[str], known: Mapping) -> Iterator[str]:
+    """The faults of the header."""
+    yield from (unknown_column(name, known) for name in names if name not in known)
+    yield from (f"has the column {name} twice; keep one" for name in sorted(set(names)) if names.count(name) > 1)
+    yield from (f"has no column {name} ({COLUMNS[name][0]}); add it" for name in REQUIRED if name not in names)
+    for name, unit in zip(names, units, strict=True):
+        expected = COLUMNS[name][0] if name in COLUMNS else ""
+        if unit and name in known and HEADER_UNITS.get(unit, ("", 0.0))[0] != expected:
+            yield f"states {name} in {unit!r}; give it in {expected or 'the SI unit'}, without the unit in the header"
 
 
-def check_value(name: str, text: str, interval: tuple[float, float]) -> tuple[float | None, str | None]:
-    """The number in a field and its fault; one of both is None, both for an empty optional field."""
-    shown = f"{name} = {text[:40]!r}"
-    if not text:
-        return None, f"has no {name}; fill it in, or delete the line" if name in REQUIRED else None
-    if not NUMBER.fullmatch(text):
-        if text.lstrip("+-").lower() in ("nan", "inf", "infinity"):
-            return None, f"{shown} is not a measured number; delete the line"
-        if re.fullmatch(r"[-+]?\d+,\d+", text):
-            return None, f"{shown} has a decimal comma; write {text.replace(',', '.')}"
-        return None, f"{shown} is text; write a number in SI units, without the unit"
-    value, (low, high) = float(text), interval
+def value_fault(name: str, value: float, interval: tuple[float, float]) -> str | None:
+    """What is wrong with a number in SI units."""
+    shown, (low, high) = f"{name} = {value:g}", interval
     if name == "acceleration" and value < 0.0:
-        return None, f"{shown} must not be negative; give the amplitude of the vibration"
-    if not math.isfinite(value) or not low <= value <= high:
-        return None, f"{shown} is outside [{low:g}, {high:g}]; give it in SI units (angles in rad)"
+        return f"{shown} must not be negative; give the amplitude of the vibration"
+    if not low <= value <= high:
+        return f"{shown} is outside [{low:g}, {high:g}]; give it in SI units (angles in rad)"
     if name in POSITIVE and value == 0.0:
-        return None, f"{shown} must be more than 0; correct it" + (", or leave sd empty" if name == "sd" else "")
-    return value, None
+        return f"{shown} must be more than 0; correct it" + (", or leave sd empty" if name == "sd" else "")
+    return None
 
 
 def plate_velocity(measured: Measurement, model: Mapping[str, Any]) -> float:
@@ -150,14 +115,17 @@ def largest_velocity(measured: Measurement, model: Mapping[str, Any]) -> float:
     return plate_velocity(measured, model) + fall * (measured.before + measured.duration)
 
 
-def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[str]:
-    """ "LINE: fault" for velocities that no part on this plate can have, and for their errors: other units."""
+def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tuple[int, str]]:
+    """Line and description of velocities that no part on this plate can have, and for their errors: other units."""
     bounds = [largest_velocity(row, model) for row in rows]
     fast = [(row, bound) for row, bound in zip(rows, bounds, strict=True) if abs(row.velocity) > TOO_FAST * bound]
     if not fast:
         return [
-            f"{row.line}: sd = {row.sd:g} m/s is larger than the largest velocity of the plate ({bound:.3g} m/s); give "
-            "it in m/s, or leave sd empty"
+            (
+                row.line,
+                f"sd = {row.sd:g} m/s is larger than the largest velocity of the plate ({bound:.3g} m/s); give it in "
+                "m/s, or leave sd empty",
+            )
             for row, bound in zip(rows, bounds, strict=True)
             if row.sd is not None and row.sd > bound
         ]
@@ -169,71 +137,65 @@ def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[str]:
     remedy = f"is the velocity in {units[nearest]}? Is the acceleration in g: multiply by 9.81?"
     more = f" ({len(fast)} lines of {len(rows)} are like this)" if len(fast) > 1 else ""
     return [
-        f"{row.line}: velocity = {row.velocity:g} m/s is impossible, because the plate moves at most at {bound:.3g} "
-        f"m/s; {remedy}{more}"
+        (
+            row.line,
+            f"velocity = {row.velocity:g} m/s is impossible, because the plate moves at most at {bound:.3g} m/s; "
+            f"{remedy}{more}",
+        )
     ]
 
 
-def parse(text: str, path: str | Path, settings: Mapping[str, Any], ranges: Mapping) -> list[Measurement]:
-    """The measurements of a CSV text; MeasurementError names every fault with file and line.
+def wanted(ranges: Mapping) -> Callable[[str], bool]:
+    """A function that says whether the header of a column names a quantity of a measurement."""
+    return lambda header: re.split(r"[\s(\[]", header.strip().lower())[0] in (*COLUMNS, *ranges)
+
+
+def read_values(table: Any, known: Mapping) -> tuple[dict[str, Any], list[tuple[int, str]]]:
+    """The numbers in each column, in SI units (NaN where a field is empty), and the faults of lines."""
+    columns, faults = {}, []
+    for place, (name, unit) in enumerate(zip(table.names, table.units, strict=True)):
+        values, wrong = table.numbers(place, name)
+        columns[name] = values * (HEADER_UNITS[unit][1] if unit else 1.0)
+        empty = set(table.lines[(table.fields[place] == "").to_numpy()].tolist())
+        faults += [(line, fault) for line, fault in wrong if name in REQUIRED or line not in empty]
+        read = {line: value for line, value in zip(table.lines.tolist(), columns[name].tolist(), strict=True)}
+        for line, _ in wrong:
+            del read[line]
+        faults += [(line, fault) for line, value in read.items() if (fault := value_fault(name, value, known[name]))]
+    return columns, sorted(faults, key=lambda one: one[0])
+
+
+def parse(table: Any, settings: Mapping[str, Any], ranges: Mapping) -> list[Measurement]:
+    """The measurements in a table of pipeline.csv_table, whose error names every fault with file and line.
 
     settings : `parameters`, which the measurements must determine, and the `model`, from which a row may differ
     ranges : admissible interval of each parameter of the model; other modules import this one without the library
     """
     known, parameters = known_columns(settings["parameters"], ranges), len(settings["parameters"])
-    if "\x00" in text:
-        raise MeasurementError([f"{path}:1: is not a CSV text; export the table as CSV"])
-    # Quotes in a comment begin no field.
-    lines = ("\n" if line.lstrip().startswith("#") else line for line in io.StringIO(text, newline=""))
-    reader = csv.reader(lines, skipinitialspace=True, strict=True)
-    faults, rows, header = [], [], None
-    try:
-        for fields in reader:
-            line, fields = reader.line_num, [field.strip() for field in fields]
-            if not any(fields) or fields[0].startswith("#"):
-                continue
-            if header is None:
-                header = fields
-                faults = [f"{path}:{line}: {fault}" for fault in check_header(header, known)]
-                if faults:
-                    break
-                continue
-            row, wrong = parse_row(fields, header, line, known)
-            faults += [f"{path}:{line}: {fault}" for fault in wrong]
-            rows.append(row)
-            if len(rows) > MOST_ROWS:
-                faults.append(f"{path}:{line}: has more than {MOST_ROWS} measurements; give fewer")
-                break
-    except csv.Error as error:
-        faults.append(f"{path}:{reader.line_num}: is not CSV ({error}); export the table as CSV")
-    if header is None and not faults:
-        faults = [f"{path}:1: is empty; the first line names the columns, such as acceleration,velocity"]
-    if not faults:
-        faults = [f"{path}:{fault}" for fault in unit_faults(rows, settings["model"])]
-    if not faults and len(rows) < parameters:
+    table = table._replace(names=[name.lower().strip() for name in table.names])
+    if faults := list(header_faults(table.names, table.units, known)):
+        raise table.error((table.header, fault) for fault in faults)
+    if len(table.lines) > MOST_ROWS:
+        raise table.error([(table.lines[MOST_ROWS], f"has more than {MOST_ROWS} measurements; give fewer")])
+    columns, faults = read_values(table, known)
+    if faults:
+        raise table.error(faults)
+    rows = [
+        measurement_of(line, {name: float(values[row]) for name, values in columns.items()})
+        for row, line in enumerate(table.lines.tolist())
+    ]
+    if faults := unit_faults(rows, settings["model"]):
+        raise table.error(faults)
+    if len(rows) < parameters:
         remedy = "measure more, or calibrate fewer with calibration.parameters"
         given = f"{len(rows)} measurement{'s' if len(rows) != 1 else ''}"
-        faults = [f"{path}:{reader.line_num}: {given} cannot determine {parameters} parameters; {remedy}"]
-    if faults:
-        raise MeasurementError(faults)
+        last = rows[-1].line if rows else table.header
+        raise table.error([(last, f"{given} cannot determine {parameters} parameters; {remedy}")])
     return rows
 
 
-def parse_row(
-    fields: list[str], header: list[str], line: int, known: Mapping[str, tuple[float, float]]
-) -> tuple[Measurement | None, list[str]]:
-    """The measurement of a line, or its faults."""
-    if any(";" in field for field in fields):
-        return None, ["has semicolons; separate columns by commas, and write points in numbers (0.05)"]
-    if len(fields) != len(header):
-        remedy = "use points, not commas, in numbers, and leave no field out"
-        return None, [f"has {len(fields)} values for {len(header)} columns; {remedy}"]
-    values, faults = {}, []
-    for name, text in zip(header, fields, strict=True):
-        values[name], fault = check_value(name, text, known[name])
-        faults += [fault] if fault else []
-    if faults:
-        return None, faults
-    given = {name: value for name, value in values.items() if value is not None}
+def measurement_of(line: int, values: Mapping[str, float]) -> Measurement:
+    """The measurement of a line."""
+    given = {name: value for name, value in values.items() if not math.isnan(value)}
     own = {name: DEFAULTS.get(name) for name in COLUMNS} | {name: given.pop(name) for name in COLUMNS if name in given}
-    return Measurement(line, **own, changed=given), []
+    return Measurement(line, **own, changed=given)

@@ -13,7 +13,7 @@ from .gravity import direction_fault, gravity_of, size_fault
 from .harmonics import Fit, duration_of, first_fit, gaps_of, sampling_rate, steadiness
 from .modulation import Modulation, alternates, modulation_of, timing_line
 from .reading import DIRECTIONS, UNITS, Recording, parse
-from .sampling import CHECKED, STAMPED, resolve
+from .sampling import CHECKED, MOST_EQUAL, MOST_GAPS, resolve
 
 LEAST_CYCLES = 8
 LEAST_PER_CYCLE = 8  # samples; with fewer, harmonics of low orders are aliased
@@ -23,10 +23,6 @@ MOST_DISPLACEMENT = 0.1  # m
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
 OTHER_FREQUENCY = 0.01  # relative difference from a stated frequency: more than clocks differ, and than a motor slips
 MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
-MOST_GAPS = 0.75  # share of the recording without samples, beyond which cycles cannot be counted across gaps
-# Share of the lines that may repeat the time of the line before, as rounded times of random samples do. Where rounding
-# makes more of them equal, it is coarse enough to blur the harmonics.
-MOST_EQUAL = 0.05
 MOST_RATE_ERROR = 2e-3  # relative standard error of the sampling rate
 MOST_SCATTER = 0.3  # rad, of the phase: times that the samples were not taken at
 OUTLIER = 20.0  # times the 95 % quantile of a column, from which a sample is no vibration
@@ -112,7 +108,7 @@ def time_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
     """Times that are too coarse for the samples."""
     equal = np.flatnonzero(np.diff(recording.time) == 0.0) + 1
     remedy = "export the time with more digits, or, if the sensor measures evenly, state excitation.rate (Hz)"
-    if recording.sampling == STAMPED and len(equal) > MOST_EQUAL * len(recording.time):
+    if len(equal) > MOST_EQUAL * len(recording.time):
         yield (
             int(recording.lines[equal[0]]),
             f"and {len(equal) - 1:,} further lines repeat the time of the line before; {remedy}",
@@ -261,7 +257,7 @@ def share_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 
 
 # Where a group finds faults, the next ones would only find their consequences.
-OF_FILE, OF_TIMES = (gap_faults, reading_faults), (time_faults,)
+OF_TIMES = ((time_faults,), (gap_faults,))
 OF_SIGNAL = ((count_faults,), (frequency_faults, sampling_faults, unit_faults), (steadiness_faults,), (share_faults,))
 
 
@@ -286,10 +282,10 @@ def checked(table: Any, settings: Mapping[str, Any]) -> Recording:
     settings : as in `parse`, and optionally `inclination` (rad) of the track and the stated `frequency` (Hz)
     """
     raw = parse(table, settings)
-    if faults := first_faults(raw, (OF_FILE,)):
+    if faults := list(reading_faults(raw)):
         raise table.error(faults)
     recording = resolve(raw)
-    faults = first_faults(recording, (OF_TIMES,)) or first_faults(signal_of(recording, settings), OF_SIGNAL)
+    faults = first_faults(recording, OF_TIMES) or first_faults(signal_of(recording, settings), OF_SIGNAL)
     if faults:
         raise table.error(faults)
     return recording

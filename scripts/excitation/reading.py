@@ -5,7 +5,7 @@ The config check reads the file before any job starts, so this module imports no
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -61,7 +61,7 @@ def is_known(header: str) -> bool:
     return any(pattern.fullmatch(name) for pattern in KNOWN.values())
 
 
-def wanted(settings: Mapping[str, Any]) -> Any:
+def wanted(settings: Mapping[str, Any]) -> Callable[[str], bool]:
     """A function that says whether the header of a column is one that the settings or KNOWN name."""
     named = {name.lstrip("-").strip().lower() for name in settings.get("columns", {}).values()}
     named |= {name.strip().lower() for name in settings.get("columns", {}).values()}
@@ -147,20 +147,14 @@ def guess_column(key: str, names: list[str], found: Mapping[str, str]) -> str:
 def unit_of(stated: str | None, headers: list[str], units: Mapping[str, float], key: str) -> tuple[str, list[str]]:
     """The unit of columns, from the config, the header, or else the first of `units`, and faults."""
     given = {SPELLINGS.get(header, header) for header in headers if header}
-    shown = " and ".join(sorted(given))
-    if len(given) > 1 and not stated:
-        return shown, [f"states the units {shown}; state excitation.{key} ({', '.join(units)})"]
-    named = next(iter(given), None)
-    if stated and named in units and named != stated:
-        return stated, [
-            f"states the unit {shown}, but excitation.{key} is {stated}; leave {key} out of the config, or correct the "
-            "header"
-        ]
-    if stated or named is None:
-        return stated or next(iter(units)), []
-    if named not in units:
-        return named, [f"states the unit {shown!r}; state excitation.{key} ({', '.join(units)})"]
-    return named, []
+    shown, choice = " and ".join(sorted(given)), f"state excitation.{key} ({', '.join(units)})"
+    if stated:
+        fault = f"states the unit {shown}, but excitation.{key} is {stated}; leave {key} out, or correct the header"
+        return stated, [fault] if given & set(units) - {stated} else []
+    if len(given) > 1:
+        return shown, [f"states the units {shown}; {choice}"]
+    named = next(iter(given), next(iter(units)))
+    return named, [] if named in units else [f"states the unit {shown!r}; {choice}"]
 
 
 def quantum(readings: np.ndarray) -> float:

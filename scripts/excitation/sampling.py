@@ -23,6 +23,10 @@ BETTER = 0.98  # times the power beside the fundamental of the times as stamped,
 FINE = 0.25  # of the mean interval: rounding by less is no sign of lost samples
 CLUSTER = 0.2  # width of a cluster of intervals, in units of the distance between two
 FEW_GAPS = 0.002  # share of the intervals
+MOST_GAPS = 0.75  # share of the recording without samples, beyond which cycles cannot be counted across gaps
+# Share of the lines that may repeat the time of the line before, as rounded times of random samples do. Where rounding
+# makes more of them equal, it is coarse enough to blur the harmonics.
+MOST_EQUAL = 0.05
 DIGITS = 12  # decimals of times that are searched for their resolution
 
 
@@ -51,9 +55,8 @@ def resolution_of(time: np.ndarray) -> float:
 
 def last_decimal(time: np.ndarray) -> float:
     """The last decimal of times, s; 0 if they have too many."""
-    size = np.abs(time).max()
     for digits in range(DIGITS):
-        if np.abs(time - np.round(time, digits)).max() < 1e-15 + 4e-16 * size:
+        if np.abs(time - np.round(time, digits)).max() < 1e-4 * 10.0**-digits:
             return 10.0**-digits
     return 0.0
 
@@ -70,7 +73,7 @@ def even(time: np.ndarray) -> Even:
     resolution, span = resolution_of(time), float(np.ptp(rest))
     # Errors of one sign side by side have one cause, so runs of them count, not samples.
     runs = 1 + np.count_nonzero(np.diff(rest > 0.0))
-    scatter = max(float(rest.std()) * math.sqrt(12.0 / runs), resolution / math.sqrt(3.0) if span < 1e-9 * slope else 0.0)
+    scatter = max(float(rest.std()) * math.sqrt(12.0 / runs), resolution / math.sqrt(3.0) if span < 1e-6 * slope else 0.0)
     return Even(fitted, span, resolution, scatter / float(np.ptp(time)))
 
 
@@ -92,7 +95,7 @@ def keep(recording: Recording, kept: np.ndarray) -> Recording:
 
 def is_even(line: Even) -> bool:
     """Whether the times of the file are themselves evenly spaced."""
-    return line.deviation < 1e-9 * float(np.ptp(line.time)) / len(line.time)
+    return line.deviation < 1e-6 * float(np.ptp(line.time)) / len(line.time)
 
 
 def interpretations(recording: Recording) -> list[Recording]:
@@ -114,6 +117,12 @@ def interpretations(recording: Recording) -> list[Recording]:
     return found + spaced
 
 
+def is_usable(recording: Recording) -> bool:
+    """Whether the times may be those of the samples: they are not mostly gaps, and few are equal."""
+    intervals, is_gap = gaps_of(recording.time)
+    return intervals[is_gap].sum() <= MOST_GAPS * intervals.sum() and (intervals == 0.0).mean() <= MOST_EQUAL
+
+
 def residual_variance(fitted: Fit) -> float:
     """Variance of the residual of both axes (m²/s⁴)."""
     count = fitted.residual.shape[1]
@@ -127,7 +136,7 @@ def power_beside_fundamental(fitted: Fit) -> float:
 
 def resolve(recording: Recording) -> Recording:
     """The recording with the times that its signal fits best."""
-    found = interpretations(recording)
+    found = [one for one in interpretations(recording) if is_usable(one)] or [recording]
     if len(found) == 1:
         return found[0]
     fits = [first_fit(one.time[:CHECKED], one.acceleration[:, :CHECKED])[0] for one in found]

@@ -1,18 +1,24 @@
 """Settings of the stage excitation: the measured drive and drives with one harmonic, with units and ranges."""
 
-from operator import itemgetter
 from typing import NotRequired
 
 from typing_extensions import TypedDict
 
 from ..operating.settings import parts_settings
-from ..pipeline.settings import Acceleration, Line, check_ascending, described, many, number, whole, word
+from ..pipeline.settings import Acceleration, Line, check_ascending, described, many, mapping, number, whole, word
+
+
+Column = described(Line, "name of a column in the file; a minus before it reverses the axis")
+COLUMNS = {name: NotRequired[Column] for name in ("time", "x", "z", "along", "normal")}
 
 
 class Excitation(TypedDict):
     measured: NotRequired[described(Line, "CSV file of an accelerometer, relative to this overlay")]
-    unit: word("unit of the accelerations in the file", "m/s²", "g")
+    unit: NotRequired[word("unit of the accelerations in the file", "m/s²", "g", "mm/s²", "mg")]
     mount: number("angle of the sensor's axis x above the track, for columns x and z", "rad", ge=-3.1416, le=3.1416)
+    columns: NotRequired[mapping("the columns of the file, if they have other names", COLUMNS)]
+    time_unit: NotRequired[word("unit of the times in the file", "s", "ms", "µs", "ns")]
+    rate: NotRequired[number("samples per second, in place of the times in the file", "Hz", gt=0, le=1e7)]
 
 
 class CleanDrive(TypedDict):
@@ -30,6 +36,11 @@ SECTIONS = {
 EXCITATION_TABLES = ("parameters", "harmonics", "quality", "samples", "waveform", "spectrum")
 
 
+def excitation_settings(config: dict) -> dict:
+    """The recording, and the inclination, to which the direction of gravity refers."""
+    return {**config["excitation"], "inclination": config["model"]["inclination"]}
+
+
 def comparison_settings(config: dict) -> dict:
     """The parts of the transit table, on the measured drive."""
     return parts_settings(config, without=("frequency", "angle", "phase_shift", "harmonics"))
@@ -42,7 +53,7 @@ def clean_drive_settings(config: dict) -> dict:
 
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
-    **dict.fromkeys((f"excitation/{name}" for name in EXCITATION_TABLES), itemgetter("excitation")),
+    **dict.fromkeys((f"excitation/{name}" for name in EXCITATION_TABLES), excitation_settings),
     "excitation/comparison": comparison_settings,
     "excitation/clean_drive": clean_drive_settings,
 }

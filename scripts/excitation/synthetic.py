@@ -9,7 +9,7 @@ from excitation.reading import STANDARD_GRAVITY
 # A linear feeder whose electromagnet pulls with the square of the current: order 2. Its springs stiffen: order 3.
 ACCELERATION, FREQUENCY, ANGLE, PHASE_SHIFT = 36.0, 50.0, 0.22, 0.12  # m/s², Hz, rad, rad
 HARMONICS = ((2, 0.045, 1.4, 0.06, 1.6), (3, 0.012, -0.6, 0.015, 2.4))  # order, along, its phase, normal, its phase
-MOUNT, OFFSETS = 0.1, (0.03, 1.01)  # rad, g
+MOUNT, OFFSETS = 0.1, (0.1, 0.995)  # rad, g: gravity
 DRIFT = 0.01  # relative change of the amplitude during the recording
 SEED = 3
 SAMPLES, RATE, JITTER = 1600, 1600.0, 0.2  # samples per second; of the times, relative to the interval

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 MOST_FAULTS = 5  # that a message names
 SAMPLED = 300  # lines that show how a file separates its columns
-SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", " ": "spaces"}
+SEPARATORS = (";", "\t", ",", " ")
 NUMBER = re.compile(r"[-+]?(\d[\d.,'\u00a0\u202f]*|[.,]\d+)([eE][-+]?\d+)?")
 CLOCK = re.compile(r"([-\d]+[T ])?\d{1,2}:\d{2}(:\d{2}([.,]\d+)?)?(Z|[-+]\d{2}:?\d{2})?")
 # A unit behind a name: Time (ms), accel [g], and in a line of its own: (s), m/s^2.
@@ -118,9 +118,13 @@ def values_in(line: str, separator: str) -> int:
 
 
 def separator_of(lines: Sequence[str]) -> str:
-    """The separator with which most lines hold values; of two, the first in SEPARATORS."""
+    """The separator with which most lines hold values; of two, the more frequent one in the first line."""
     step = max(1, len(lines) // SAMPLED)
-    return max(SEPARATORS, key=lambda one: sum(values_in(line, one) > 0 for line in lines[::step]))
+
+    def score(separator: str) -> tuple[int, int]:
+        return sum(values_in(line, separator) > 0 for line in lines[::step]), lines[0].count(separator)
+
+    return max(SEPARATORS, key=score)
 
 
 def name_and_unit(header: str) -> tuple[str, str]:
@@ -185,12 +189,11 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
     while names and not names[-1]:  # a separator at the end of the line
         names, units_of = names[:-1], units_of[:-1]
     lines, faults = np.array([number for number, _ in rows], dtype=np.int64), []
-    for row in np.flatnonzero((widths < len(names)) | (widths > len(names) + 1))[:MOST_FAULTS]:
-        remedy = "leave no field out, and separate columns by semicolons if numbers have commas"
-        faults.append(f"{path}:{lines[row]}: has {widths[row]} values for {len(names)} columns; {remedy}")
-    for row in np.flatnonzero(widths == len(names) + 1):
-        if len(faults) < MOST_FAULTS and (more := split(rows[row][1], separator)[-1]):
-            faults.append(f"{path}:{lines[row]}: has {more!r} behind the last of {len(names)} columns; name the column")
+    for row in np.flatnonzero(widths != len(names)):
+        ends_empty = widths[row] == len(names) + 1 and not split(rows[row][1], separator)[-1]
+        if not ends_empty and len(faults) < MOST_FAULTS:
+            remedy = "leave no field out, and separate columns by semicolons if numbers have commas"
+            faults.append(f"{path}:{lines[row]}: has {widths[row]} values for {len(names)} columns; {remedy}")
     if faults:
         raise TableError(faults)
     options = {"header": None, "names": range(len(names) + 1), "dtype": str, "keep_default_na": False}
@@ -223,11 +226,11 @@ def number_signs(fields: Sequence[Any]) -> tuple[str, str]:
     """The decimal sign and the sign between thousands (may be empty) in columns of texts.
 
     A comma alone is decimal, unless a number has two of them, or each stands before three digits while other numbers
-    have a point or are too short for thousands.
+    have a point or are too short for thousands. If some numbers have commas and more have points, commas are mistakes.
     """
     fields = [one[one.str.fullmatch(NUMBER.pattern)] for one in fields]
     commas = [one[one.str.contains(",", regex=False)] for one in fields]
-    points = any(one.str.contains(".", regex=False).any() for one in fields)
+    points = sum(int(one.str.contains(".", regex=False).sum()) for one in fields)
     if not any(map(len, commas)):
         twice = any(one.str.contains(r"\..*\.").any() for one in fields)
         return (",", ".") if twice else (".", "")
@@ -239,7 +242,9 @@ def number_signs(fields: Sequence[Any]) -> tuple[str, str]:
         return ".", ","
     grouped = all(one.str.fullmatch(r"[-+]?[1-9]\d{0,2},\d{3}").all() for one in commas)
     short = any(one.str.fullmatch(r"[-+]?\d{1,3}").any() for one in fields)
-    return (".", ",") if grouped and (points or short) else (",", "")
+    if grouped and (points or short):
+        return ".", ","
+    return (".", "") if points > sum(map(len, commas)) else (",", "")
 
 
 def to_numbers(texts: Any, signs: tuple[str, str]) -> Any:
@@ -284,4 +289,4 @@ def number_fault(name: str, text: str) -> str:
         return f"{shown} is not a measured number; delete the line"
     if re.fullmatch(r"[-+]?\d*,\d+", text):
         return f"{shown} has a decimal comma, other numbers have points; write {text.replace(',', '.')}"
-    return f"{shown} is text; write a number without its unit"
+    return f"{shown} is text; write a number without the unit"

@@ -5,7 +5,24 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.signal import lfilter
 
-from excitation.reading import STANDARD_GRAVITY
+from excitation.faults import checked
+from excitation.reading import EXAMPLE, HEADER_UNITS, STANDARD_GRAVITY, Recording, parse, wanted
+from pipeline import csv_table
+
+
+def table_of(text: str, settings: dict, path: str = "mine.csv") -> csv_table.Table:
+    """The table in the text of a file."""
+    return csv_table.parse(text, path, wanted(settings), HEADER_UNITS, EXAMPLE)
+
+
+def read(text: str, settings: dict) -> Recording:
+    """The recording in the text of a file, as it stands there."""
+    return parse(table_of(text, settings), settings)
+
+
+def check(text: str, settings: dict) -> Recording:
+    """The recording in the text of a file, as the rules use it; an error if it has faults."""
+    return checked(table_of(text, settings), settings)
 
 
 @dataclass(frozen=True)
@@ -22,8 +39,9 @@ class Drive:
     rate: float = 2000.0  # samples per second
     noise: float = 0.3  # m/s², standard deviation
     colour: float = 0.0  # correlation of the noise from sample to sample
-    offsets: tuple = (0.4, 9.81)  # m/s², of the sensor's columns: gravity and bias
+    bias: tuple = (0.01, -0.02)  # m/s², of the sensor's columns
     mount: float = 0.0  # rad
+    inclination: float = 0.0  # rad, of the track
     jitter: float = 0.0  # of the sampling times, in units of the interval
     random: bool = False  # sampling times: uniformly random
     gap: tuple = (1.0, 1.0)  # begin and end of missing samples, in units of the recording
@@ -46,6 +64,15 @@ class Drive:
             both[1] += amplitude * np.sin(2.0 * np.pi * frequency * time)
         return both
 
+    @property
+    def offsets(self) -> tuple[float, float]:
+        """Means of the sensor's columns (m/s²): gravity and bias."""
+        upwards = self.mount + self.inclination
+        return (
+            STANDARD_GRAVITY * np.sin(upwards) + self.bias[0],
+            STANDARD_GRAVITY * np.cos(upwards) + self.bias[1],
+        )
+
     def record(self, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
         """Times (s) and readings (m/s²) of the columns along, normal, or, with a mount, x, z."""
         random = np.random.default_rng(seed)
@@ -56,10 +83,11 @@ class Drive:
         along, normal = self.plate(time)
         cosine, sine = np.cos(self.mount), np.sin(self.mount)
         readings = np.array([along * cosine + normal * sine, -along * sine + normal * cosine])
+        readings = readings + np.array(self.offsets)[:, None]
         noise = random.standard_normal((2, count))
         noise[:, 1:] *= np.sqrt(1.0 - self.colour**2)
         noise = lfilter([1.0], [1.0, -self.colour], noise)
-        readings = readings + np.array(self.offsets)[:, None] + self.noise * noise
+        readings = readings + self.noise * noise
         if self.quantum:
             readings = self.quantum * np.round(readings / self.quantum)
         begin, end = self.gap
@@ -76,7 +104,7 @@ class Drive:
 
     @property
     def settings(self) -> dict:
-        return {"unit": self.unit, "mount": self.mount}
+        return {"unit": self.unit, "mount": self.mount, "inclination": self.inclination}
 
     def truth(self) -> dict[str, float]:
         """The parameters of the drive and the harmonics, by name and by name and order."""

@@ -6,17 +6,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from accelerometer import Drive
+from accelerometer import Drive, read
 from excitation.estimates import SHARES, harmonics, noise_of, parameters, wrap
 from excitation.harmonics import fit, orders_of, sampling_rate, strongest
-from excitation.reading import parse
 
 HARMONICS = ((2, 0.05, 0.7, 0.08, -2.5), (3, 0.02, 3.0, 0.03, 1.0), (5, 0.01, -1.0, 0.0, 0.0))
 
 
 def estimate(drive: Drive, seed: int = 0) -> tuple[dict, dict]:
     """Values and standard errors by name, and the columns of the harmonics."""
-    recording = parse(drive.text(seed), "mine.csv", drive.settings)
+    recording = read(drive.text(seed), drive.settings)
     time, signals = recording.time, recording.acceleration
     guess = strongest(time, signals)[0]
     found = fit(time, signals, guess, orders_of(sampling_rate(time), guess))
@@ -96,7 +95,7 @@ def test_intervals_are_not_too_wide(kind):
 def test_noise_near_a_harmonic_is_the_error_of_this_harmonic():
     """A slow beat of the second harmonic, which the fit leaves in its residual."""
     drive = Drive(harmonics=HARMONICS, noise=0.0)
-    recording = parse(drive.text(0), "mine.csv", drive.settings)
+    recording = read(drive.text(0), drive.settings)
     found = fit(recording.time, recording.acceleration, drive.frequency, 3)
     time = recording.time - found.middle
     beat = 0.01 * np.cos(4.0 * np.pi * found.frequency * time) * np.cos(6.0 * np.pi * time / np.ptp(time))

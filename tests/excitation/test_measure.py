@@ -8,10 +8,9 @@ import pytest
 import yaml
 from project import ROOT
 
-from accelerometer import Drive
+from accelerometer import Drive, read
 from excitation import measure, overlay, page, synthetic
 from excitation.comparison import NO, PERHAPS, WITH, WITHOUT, YES, change, verdict
-from excitation.reading import parse
 from pipeline import tables
 
 DRIVE = Drive(harmonics=((2, 0.05, 0.7, 0.08, -2.5), (3, 0.02, 3.0, 0.0, 0.0)), cycles=200.0, noise=0.1)
@@ -113,7 +112,7 @@ def test_a_pure_drive_has_an_empty_list_of_harmonics():
 def test_the_example_is_made_by_its_rule():
     assert (ROOT / "config/examples/accelerometer.csv").read_text() == synthetic.make()
     example = yaml.safe_load((ROOT / "config/examples/accelerometer.yaml").read_text())["excitation"]
-    recording = parse(synthetic.make(), "accelerometer.csv", example)
+    recording = read(synthetic.make(), example)
     assert np.ptp(recording.acceleration[0]) == pytest.approx(
         2.0 * synthetic.ACCELERATION * np.cos(synthetic.ANGLE), rel=0.1
     )

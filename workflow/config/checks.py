@@ -7,9 +7,10 @@ from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 
-from scripts.calibration.measurements import MeasurementError, parse, read_text
+from scripts.calibration import measurements
 from scripts.conveyor import RANGES
 from scripts.excitation.limits import STATEMENT
+from scripts.pipeline import csv_table
 
 from .entries import (
     ENTRIES,
@@ -284,25 +285,38 @@ def calibration(config: dict, defaults: dict) -> Iterator[str]:
             f"begins at {lowest!r}; begin lower, or take friction out of calibration.parameters"
         )
     try:
-        settings = {**own, "model": config["model"]}
-        parse(read_text(path), path, settings, RANGES)
-    except MeasurementError as error:
+        text = csv_table.read_text(path, "calibration.measurements", measurements.MOST_BYTES)
+        known = measurements.wanted(RANGES)
+        table = csv_table.parse(text, path, known, measurements.HEADER_UNITS, measurements.EXAMPLE)
+        measurements.parse(table, {**own, "model": config["model"]}, RANGES)
+    except csv_table.TableError as error:
         yield from error.faults
 
 
-def excitation(config: dict, defaults: dict) -> Iterator[str]:
-    """Faults in the file of an accelerometer and in its signal."""
+def excitation(config: dict, defaults: dict, states_frequency: bool) -> Iterator[str]:
+    """Faults in the file of an accelerometer and in its signal.
+
+    states_frequency : whether the user has stated the frequency, also if it is the default
+    """
     own, clean = config["excitation"], config["clean_drive"]
     if (share := STATEMENT["share"]) not in clean["shares"]:
         yield f"clean_drive.shares = {clean['shares']!r} lacks {share!r}, the share of the statement on chaos; add it"
     if (path := own.get("measured")) is None:
         return
-    # Only configs with such a file need NumPy and SciPy.
-    from scripts.excitation.faults import RecordingError, checked, read_text
+    # Only configs with such a file need NumPy, SciPy and pandas.
+    from scripts.excitation import faults, reading
 
+    if "rate" in own and "time" in own.get("columns", {}):
+        yield "excitation has both rate and columns.time; state one of them"
+        return
+    model = config["model"]
+    stated = states_frequency or model["frequency"] != defaults["model"]["frequency"]
+    settings = {**own, "inclination": model["inclination"], "frequency": model["frequency"] if stated else None}
     try:
-        checked(read_text(path), path, own, config["model"]["frequency"])
-    except RecordingError as error:
+        text = csv_table.read_text(path, "excitation.measured", reading.MOST_BYTES)
+        table = csv_table.parse(text, path, reading.wanted(own), reading.HEADER_UNITS, reading.EXAMPLE)
+        faults.checked(table, settings)
+    except csv_table.TableError as error:
         yield from error.faults
 
 
@@ -314,7 +328,7 @@ def precision(config: dict, defaults: dict) -> Iterator[str]:
 
 CHECKS = (
     *(prefix, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
-    *(unknown_references, figures, unused_keys, excitation, calibration),
+    *(unknown_references, figures, unused_keys, calibration),
     *(precision, drive),
 )
 
@@ -324,10 +338,14 @@ def default_config() -> dict:
     return merge(*read_all(DEFAULT_FILES))
 
 
-def problems(config: dict, defaults: dict | None = None) -> list[str]:
-    """All errors of a merged config, one line each; empty if there are none."""
+def problems(config: dict, defaults: dict | None = None, states_frequency: bool = False) -> list[str]:
+    """All errors of a merged config, one line each; empty if there are none.
+
+    states_frequency : whether an overlay or the command line states model.frequency, also if it is the default
+    """
     if errors := type_problems(config):
         return errors
     typed, defaults = MODEL.validate_python(config), default_config() if defaults is None else defaults
     lines = [line for check in CHECKS for line in check(typed, defaults)]
+    lines += excitation(typed, defaults, states_frequency)
     return list(dict.fromkeys(lines))
