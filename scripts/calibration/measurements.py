@@ -28,8 +28,8 @@ DEFAULTS = {"duration": 1.0, "before": 1.0}  # s
 CALIBRATED = ("friction", "damping", "stiffness", "angle", "inclination", "phase_shift", "exponent")
 # Units that the header may state: the SI unit, and the factor to it.
 HEADER_UNITS = {
-    **{name: ("m/s²", 1.0) for name in ("m/s²", "m/s^2", "m/s2")},
-    **{name: ("m/s²", 1e-3) for name in ("mm/s²", "mm/s^2", "mm/s2")},
+    **dict.fromkeys(("m/s²", "m/s^2", "m/s2"), ("m/s²", 1.0)),
+    **dict.fromkeys(("mm/s²", "mm/s^2", "mm/s2"), ("m/s²", 0.001)),
     "g": ("m/s²", 9.80665),
     **{"m/s": ("m/s", 1.0), "cm/s": ("m/s", 1e-2), "mm/s": ("m/s", 1e-3), "m/min": ("m/s", 1.0 / 60.0)},
     **{"s": ("s", 1.0), "ms": ("s", 1e-3)},
@@ -158,7 +158,7 @@ def read_values(table: Any, known: Mapping) -> tuple[dict[str, Any], list[tuple[
         columns[name] = values * (HEADER_UNITS[unit][1] if unit else 1.0)
         empty = set(table.lines[(table.fields[place] == "").to_numpy()].tolist())
         faults += [(line, fault) for line, fault in wrong if name in REQUIRED or line not in empty]
-        read = {line: value for line, value in zip(table.lines.tolist(), columns[name].tolist(), strict=True)}
+        read = dict(zip(table.lines.tolist(), columns[name].tolist(), strict=True))
         for line, _ in wrong:
             del read[line]
         faults += [(line, fault) for line, value in read.items() if (fault := value_fault(name, value, known[name]))]

@@ -81,8 +81,8 @@ def step_variance(recording: Recording, fit: Fit) -> np.ndarray:
 def timing_variance(recording: Recording, fit: Fit) -> np.ndarray:
     """Variance of each amplitude (m²/s⁴) from errors of the times that the noise does not show, shape (2, K).
 
-    Errors of the phase with the variance σ² reduce an amplitude of order k by k² σ²/2. Rounded times whose errors repeat
-    in every cycle make harmonics, as the steps of a converter do.
+    Errors of the phase with the variance σ² reduce an amplitude of order k by k² σ²/2. Rounded times whose errors
+    repeat in every cycle make harmonics, as the steps of a converter do.
     """
     part = slice(0, CHECKED)
     scatter = modulation_of(recording.time[part], fit._replace(residual=fit.residual[:, part])).scatter
@@ -132,6 +132,9 @@ class Doubt(NamedTuple):
     rate: float = 0.0  # relative, of the sampling rate
 
 
+NONE = Doubt()
+
+
 def values_of(amplitudes: np.ndarray, frequency: float) -> dict[str, float]:
     """The value of each of PARAMETERS."""
     along, normal = amplitudes[:, 0]
@@ -143,7 +146,7 @@ def values_of(amplitudes: np.ndarray, frequency: float) -> dict[str, float]:
     }
 
 
-def parameters(recording: Recording, fit: Fit, noise: Noise, doubt: Doubt = Doubt()) -> dict[str, tuple[float, float]]:
+def parameters(recording: Recording, fit: Fit, noise: Noise, doubt: Doubt = NONE) -> dict[str, tuple[float, float]]:
     """Value and standard error of each of PARAMETERS."""
     along, normal = fit.amplitudes[:, 0]
     acceleration = math.hypot(abs(along), abs(normal))
@@ -182,7 +185,7 @@ def shares_of(amplitudes: np.ndarray, orders: np.ndarray) -> dict[str, np.ndarra
     return columns
 
 
-def harmonics(fit: Fit, noise: Noise, doubt: Doubt = Doubt()) -> dict[str, np.ndarray]:
+def harmonics(fit: Fit, noise: Noise, doubt: Doubt = NONE) -> dict[str, np.ndarray]:
     """Shares and phases of the harmonics of orders 2 and higher with their standard errors, and which of them are above
     the noise, by column name, each of shape (K - 1,)."""
     orders = np.arange(2, fit.orders + 1)

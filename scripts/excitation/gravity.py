@@ -5,7 +5,7 @@ g cos(inclination) normal to it. The mean of a recording is this reading, apart 
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -101,9 +101,11 @@ def direction_fault(recording: Recording, gravity: Gravity, settings: Mapping[st
     entries = fitting_columns(recording, means, mount, inclination)
     if entries and abs(gravity.lean) > 0.5 * math.pi:
         if len(entries) > 1:
+            underside, negated = entries[0], entries[1]
             return (
-                f"{shown}: it points down. If the sensor sits on the underside of the plate, with {recording.columns[0]} "
-                f"still in the feeding direction, set {entries[0]}; if all axes have the other sign, set {entries[1]}"
+                f"{shown}: it points down. If the sensor sits on the underside of the plate, with "
+                f"{recording.columns[0]} still in the feeding direction, set {underside}; if all axes have the other "
+                f"sign, set {negated}"
             )
         return f"{shown}: an axis points the other way; set {entries[0]}"
     if recording.columns == AXES:

@@ -61,7 +61,9 @@ TABLES = {
         fields.count("samples", "samples of the recording"),
         fields.count("repeated", "lines left out because they repeat the readings of the line before"),
         fields.text("sampling", "times: stamped (as in the file), rate (as stated), rounded or even (evenly spaced)"),
-        fields.number("rate_error", "1", "relative standard error of the sampling rate from the resolution of the times"),
+        fields.number(
+            "rate_error", "1", "relative standard error of the sampling rate from the resolution of the times"
+        ),
         fields.number("sampling_rate", "Hz", "mean number of samples per second, outside gaps"),
         fields.number("cycles", "1", "excitation cycles of the recording"),
         *by_axis("_offset", "m/s²", "gravity and offset of the sensor"),

@@ -19,7 +19,7 @@ ONE_SIDED = 3.0  # ratio of both parts from which a line is no vibration of anot
 LOCKED = 20.0  # and the ratio at multiples of the drive's frequency, where two harmonics may look like it
 FOOT = 2.5  # half width of a line in units of 1/T, and
 SLOW = 4.0  # frequencies that are slow changes of the drive
-# Amplitude of the phase error that lost samples make at least, in units of the phase between two samples; 1/π in theory.
+# Least amplitude of the phase error of lost samples, in units of the phase between two samples; 1/π in theory.
 LOST = 0.12
 LEAST_PHASE = 0.005  # rad, of a slower swing than a quarter of the drive's frequency: a motor may hunt
 LEAST_GAIN, ALTERNATING = 0.003, 5.0

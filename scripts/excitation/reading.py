@@ -15,8 +15,8 @@ UNITS = {"m/s²": 1.0, "g": STANDARD_GRAVITY, "mm/s²": 1e-3, "mg": 1e-3 * STAND
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9}
 # How the header of a file may write a unit.
 SPELLINGS = {
-    **{spelling: "m/s²" for spelling in ("m/s^2", "m/s2", "m/s/s", "m/sec^2", "m/s**2", "ms^-2", "ms-2", "m s^-2")},
-    **{spelling: "mm/s²" for spelling in ("mm/s^2", "mm/s2", "mm/s/s")},
+    **dict.fromkeys(("m/s^2", "m/s2", "m/s/s", "m/sec^2", "m/s**2", "ms^-2", "ms-2", "m s^-2"), "m/s²"),
+    **dict.fromkeys(("mm/s^2", "mm/s2", "mm/s/s"), "mm/s²"),
     **{"G": "g", "gee": "g", "g0": "g", "mG": "mg", "milli-g": "mg", "sec": "s", "seconds": "s", "second": "s"},
     **{"msec": "ms", "milliseconds": "ms", "us": "µs", "usec": "µs", "μs": "µs", "microseconds": "µs"},
     **{"nanoseconds": "ns"},
@@ -33,9 +33,7 @@ EXAMPLE = "time,along,normal"
 # Names of columns that need no `columns` in the config: phyphox writes `Acceleration x (m/s^2)`, others accel_x or ax.
 KNOWN = {"time": re.compile(r"(time|timestamp|t|(time|timestamp|t)[ _](s|ms|us|µs|ns))", re.IGNORECASE)}
 KNOWN |= {name: re.compile(name, re.IGNORECASE) for name in AXES}
-KNOWN |= {
-    name: re.compile(rf"((linear )?acc(el|eleration)?[ _.]?|a)?{name}", re.IGNORECASE) for name in SENSOR
-}
+KNOWN |= {name: re.compile(rf"((linear )?acc(el|eleration)?[ _.]?|a)?{name}", re.IGNORECASE) for name in SENSOR}
 
 
 class Recording(NamedTuple):

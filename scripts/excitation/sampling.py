@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .harmonics import GAP, Fit, first_fit, gaps_of
+from .harmonics import Fit, first_fit, gaps_of
 from .reading import Recording
 
 CHECKED = 2**15  # samples that are searched for lines: more cost seconds at every start
@@ -22,7 +22,7 @@ WORSE = 1.3  # times the smallest residual variance, from which an interpretatio
 BETTER = 0.98  # times the power beside the fundamental of the times as stamped, below which others are better
 FINE = 0.25  # of the mean interval: rounding by less is no sign of lost samples
 CLUSTER = 0.2  # width of a cluster of intervals, in units of the distance between two
-FEW_GAPS = 0.002  # share of the intervals
+FEW_GAPS = 0.002  # share of the intervals, beside one; more are the pauses between buffers
 MOST_GAPS = 0.75  # share of the recording without samples, beyond which cycles cannot be counted across gaps
 # Share of the lines that may repeat the time of the line before, as rounded times of random samples do. Where rounding
 # makes more of them equal, it is coarse enough to blur the harmonics.
@@ -64,7 +64,7 @@ def last_decimal(time: np.ndarray) -> float:
 def even(time: np.ndarray) -> Even:
     """The straight line through times over the number of the sample; gaps take a whole number of samples."""
     intervals, is_gap = gaps_of(time)
-    is_gap = is_gap if np.count_nonzero(is_gap) < FEW_GAPS * len(intervals) else np.zeros_like(is_gap)
+    is_gap = is_gap if np.count_nonzero(is_gap) <= 1 + FEW_GAPS * len(intervals) else np.zeros_like(is_gap)
     steps = np.where(is_gap, np.maximum(np.round(intervals / intervals[~is_gap].mean()), 1.0), 1.0)
     index = np.concatenate([[0.0], np.cumsum(steps)])
     slope, start = np.polyfit(index - index.mean(), time, 1)
@@ -73,7 +73,9 @@ def even(time: np.ndarray) -> Even:
     resolution, span = resolution_of(time), float(np.ptp(rest))
     # Errors of one sign side by side have one cause, so runs of them count, not samples.
     runs = 1 + np.count_nonzero(np.diff(rest > 0.0))
-    scatter = max(float(rest.std()) * math.sqrt(12.0 / runs), resolution / math.sqrt(3.0) if span < 1e-6 * slope else 0.0)
+    scatter = max(
+        float(rest.std()) * math.sqrt(12.0 / runs), resolution / math.sqrt(3.0) if span < 1e-6 * slope else 0.0
+    )
     return Even(fitted, span, resolution, scatter / float(np.ptp(time)))
 
 
@@ -140,7 +142,9 @@ def resolve(recording: Recording) -> Recording:
     if len(found) == 1:
         return found[0]
     fits = [first_fit(one.time[:CHECKED], one.acceleration[:, :CHECKED])[0] for one in found]
-    residuals, powers = (np.array([power(fit) for fit in fits]) for power in (residual_variance, power_beside_fundamental))
+    residuals, powers = (
+        np.array([power(fit) for fit in fits]) for power in (residual_variance, power_beside_fundamental)
+    )
     possible = residuals <= WORSE * residuals.min()
     interval = np.diff(recording.time).mean()
     for place, one in enumerate(found):

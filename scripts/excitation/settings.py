@@ -7,9 +7,8 @@ from typing_extensions import TypedDict
 from ..operating.settings import parts_settings
 from ..pipeline.settings import Acceleration, Line, check_ascending, described, many, mapping, number, whole, word
 
-
 Column = described(Line, "name of a column in the file; a minus before it reverses the axis")
-COLUMNS = {name: NotRequired[Column] for name in ("time", "x", "z", "along", "normal")}
+COLUMNS = dict.fromkeys(("time", "x", "z", "along", "normal"), NotRequired[Column])
 
 
 class Excitation(TypedDict):

@@ -64,7 +64,9 @@ class Table(NamedTuple):
         else:
             numbers, _ = self.numbers(place, "time")
             time = (numbers - (numbers[0] if len(numbers) and np.isfinite(numbers[0]) else 0)) * scale
-        faults = [(int(self.lines[row]), number_fault("time", texts[row])) for row in np.flatnonzero(~np.isfinite(time))]
+        faults = [
+            (int(self.lines[row]), number_fault("time", texts[row])) for row in np.flatnonzero(~np.isfinite(time))
+        ]
         for row in np.flatnonzero(np.diff(time) < 0.0) + 1:
             remedy = "sort the lines, or state excitation.rate (Hz) in place of the times"
             faults.append((int(self.lines[row]), f"time = {texts[row]} is earlier than the line before; {remedy}"))
@@ -103,7 +105,9 @@ def split(line: str, separator: str) -> list[str]:
     """The fields of a line."""
     if separator == " ":
         return next(csv.reader([re.sub(r"\s+", " ", line.strip())], delimiter=" "))
-    return [field.strip() for field in next(csv.reader([line.strip(" \r")], delimiter=separator, skipinitialspace=True))]
+    return [
+        field.strip() for field in next(csv.reader([line.strip(" \r")], delimiter=separator, skipinitialspace=True))
+    ]
 
 
 def is_value(field: str) -> bool:
@@ -248,7 +252,7 @@ def number_signs(fields: Sequence[Any]) -> tuple[str, str]:
 
 
 def to_numbers(texts: Any, signs: tuple[str, str]) -> Any:
-    """The numbers in a column of texts, with the signs of `number_signs`; NaN for other texts. Integers stay integers."""
+    """The numbers in a column of texts, with the signs of `number_signs`; NaN for other texts."""
     import pandas as pd
 
     decimal, thousands = signs

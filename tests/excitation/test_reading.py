@@ -47,23 +47,43 @@ BAD_TEXTS = {
     "only x": (GOOD.replace("along,normal", "x,y", 1), 1, "has no column z"),
     "unknown unit": (GOOD.replace("along", "along (V)", 1), 1, "states the unit 'V'; state excitation.unit"),
     "two units": (GOOD.replace("along,normal", "along (g),normal (m/s^2)", 1), 1, "states the units g and m/s²"),
-    "misspelt column": (GOOD.replace("normal", "nromal", 1), 1, "excitation.columns: {time: time, along: along, normal: nromal}"),
-    "column twice": (GOOD.replace("normal", "along,normal", 1).replace("\n", ",1\n").replace("normal,1", "normal"), 1, "has the column along twice"),
-    "four columns": ("time,along,normal,x,z\n0,1,2,3,4\n", 1, "has both along, normal and x, z; name one pair in excitation.columns"),
+    "misspelt column": (
+        GOOD.replace("normal", "nromal", 1),
+        1,
+        "excitation.columns: {time: time, along: along, normal: nromal}",
+    ),
+    "column twice": (
+        GOOD.replace("normal", "along,normal", 1).replace("\n", ",1\n").replace("normal,1", "normal"),
+        1,
+        "has the column along twice",
+    ),
+    "four columns": (
+        "time,along,normal,x,z\n0,1,2,3,4\n",
+        1,
+        "has both along, normal and x, z; name one pair in excitation.columns",
+    ),
     "text": (with_line(7, "0.0025,fast,1"), 7, "along = 'fast' is text"),
     "nan": (with_line(9, "0.004,1,NaN"), 9, "is not a measured number; delete the line"),
     "infinite": (with_line(9, "0.004,-inf,1"), 9, "is not a measured number; delete the line"),
     "too large for a number": (with_line(9, "0.004,1e999,1"), 9, "is not a measured number"),
     "empty field": (with_line(5, "0.002,,1"), 5, "has no along; fill it in, or delete the line"),
     "missing field": (with_line(5, "0.002,1"), 5, "has 2 values for 3 columns"),
-    "time goes back": (with_line(20, LINES[11]), 20, "is earlier than the line before; sort the lines, or state excitation.rate"),
+    "time goes back": (
+        with_line(20, LINES[11]),
+        20,
+        "is earlier than the line before; sort the lines, or state excitation.rate",
+    ),
     "decimal commas": (
         "time,along,normal\n"
         + "\n".join(line.replace(",", "#").replace(".", ",").replace("#", ",") for line in LINES[1:]),
         2,
         "values for 3 columns; leave no field out, and separate columns by semicolons if numbers have commas",
     ),
-    "quoted decimal comma": (with_line(3, '0.001,"1;5",2').replace("1;5", "1,5"), 3, "has a decimal comma, other numbers have points; write 1.5"),
+    "quoted decimal comma": (
+        with_line(3, '0.001,"1;5",2').replace("1;5", "1,5"),
+        3,
+        "has a decimal comma, other numbers have points; write 1.5",
+    ),
     "a spreadsheet": (b"PK\x03\x04\x14\x00\x06\x00\xff\xfe" + bytes(300), 1, "is not text"),
     "zero bytes": (GOOD.replace("0.0", "0.\x000", 1), 1, "is not text"),
     "short": ("\n".join(LINES[:40]), 40, "ends after 39 samples"),
@@ -91,7 +111,10 @@ BAD_SIGNALS = {
     "4000 g": (replace(DRIVE, acceleration=4000.0, unit="g"), "no conveyor does: state another excitation.unit"),
     "a drive that is off": (replace(DRIVE, acceleration=0.03, noise=1e-4), "and record while the drive is on"),
     "milliseconds": (replace(DRIVE, frequency=0.05, rate=2.0), "set excitation.time_unit: ms"),
-    "minutes": (replace(DRIVE, frequency=3000.0, rate=120_000.0), "state the unit of its times as excitation.time_unit"),
+    "minutes": (
+        replace(DRIVE, frequency=3000.0, rate=120_000.0),
+        "state the unit of its times as excitation.time_unit",
+    ),
     "a drive that starts": (replace(DRIVE, drift=1.2), "is not steady: its amplitude at 50 Hz varies by "),
     "two drives of nearly one frequency": (replace(DRIVE, angle=1.2, cycles=60.0, also={49.5: 20.0}), "is not steady"),
     "a fundamental too weak for its harmonics": (
@@ -199,7 +222,8 @@ def test_a_weak_fundamental_is_found_below_its_second_harmonic():
 def test_columns_are_turned_and_scaled(unit, mount):
     drive = replace(DRIVE, unit=unit, mount=mount, noise=0.0, bias=(0.0, 0.0))
     found = read(drive.text(), drive.settings)
-    expected = drive.plate(found.time + drive.record()[0][0]) + [[0.0], [STANDARD_GRAVITY]]
+    expected = drive.plate(found.time + drive.record()[0][0])
+    expected[1] += STANDARD_GRAVITY
     np.testing.assert_allclose(found.acceleration, expected, atol=2e-3)
 
 
@@ -223,9 +247,7 @@ def test_other_spellings_of_a_file_are_read(change, tmp_path):
     file = tmp_path / "mine.csv"
     file.write_bytes(change(GOOD).encode())
     text = read_text(file, "excitation.measured", MOST_BYTES)
-    np.testing.assert_array_equal(
-        read(text, DRIVE.settings).acceleration, read(GOOD, DRIVE.settings).acceleration
-    )
+    np.testing.assert_array_equal(read(text, DRIVE.settings).acceleration, read(GOOD, DRIVE.settings).acceleration)
     assert make.read(str(file), {}) == text
 
 

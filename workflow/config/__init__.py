@@ -57,8 +57,8 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
     if errors := type_problems(whole):
         raise ConfigError(name_lines(errors, overlay_files))
     name_measurements(whole, overlay_files, overlays)
-    stated = merge(*overlays, changed_values(merge(paper, *overlays), config))
-    if errors := problems(whole, paper, "frequency" in stated.get("model", {})):
+    states_frequency = any("frequency" in (overlay.get("model") or {}) for overlay in overlays)
+    if errors := problems(whole, paper, states_frequency):
         raise ConfigError(name_lines(errors, overlay_files))
     for section, key in MEASURED_FILES:
         if key not in whole[section]:
