@@ -71,7 +71,6 @@ from .analysis.bifurcations.bifurcation_points import (
     GRAZING,
     BifurcationPoint,
     at_phase_zero,
-    differentiate_unknowns,
     find_bifurcation,
     touching_point,
 )
@@ -98,15 +97,9 @@ from .analysis.fractals.scaling_region import Dimension
 # Dimensionless groups, spectra and textbook theory
 from .analysis.contact_groups import contact_of_groups, groups_of_contact
 from .analysis.dimensionless_groups import (
-    GROUP_NAMES,
-    GROUP_OF,
-    PARAMETER_OF,
     amplitude_of,
-    derivatives_by_groups,
-    derivatives_of_groups,
     groups_of,
     length_and_speed_units,
-    scaled_start,
 )
 from .analysis.amplitude_spectrum import AmplitudeSpectrum, harmonic_spectrum, windowed_spectrum
 from .analysis.throw_theory import throw_number, throw_velocity

@@ -1,4 +1,4 @@
-"""Settings of the stage sensitivity: derivatives and curves of bifurcations, with units and ranges."""
+"""Settings of the stage sensitivity: changes and curves of bifurcations, with units and ranges."""
 
 from typing_extensions import TypedDict
 
@@ -17,10 +17,10 @@ class Sensitivity(TypedDict):
     )
 
 
-SECTIONS = {"sensitivity": described(Sensitivity, "derivatives of bifurcations and critical heights")}
+SECTIONS = {"sensitivity": described(Sensitivity, "how bifurcations and critical heights change with each parameter")}
 
 
-def derivatives_settings(config: dict) -> dict:
+def changes_settings(config: dict) -> dict:
     own = {key: config["sensitivity"][key] for key in ("critical", "effort")}
     return {**own, "model": model_of(config, "orbits")}
 
@@ -32,6 +32,6 @@ def curves_settings(config: dict) -> dict:
 
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
-    **dict.fromkeys(("sensitivity/derivatives", "sensitivity/groups"), derivatives_settings),
+    "sensitivity/changes": changes_settings,
     **dict.fromkeys(("sensitivity/continued", "sensitivity/meetings"), curves_settings),
 }

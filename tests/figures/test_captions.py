@@ -10,6 +10,7 @@ from prose import typed
 from figures import captions
 from figures.caption_numbers import bifurcation
 from figures.titles import split_title, title_of
+from sensitivity.changes import UNEVEN
 
 CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
@@ -232,26 +233,28 @@ def test_a_state_that_all_heights_lead_to_is_named():
     assert "States of motion: the second state and chaos." in caption("fig17", paper=False, converged=several)
 
 
-def test_derivatives_that_do_not_pass_the_check_are_named():
-    """An influence of zero, here of friction, confirms nothing."""
-    row = {"kind": "critical_height", "parameter": "mass", "derivative": 0.0, "difference": 0.0, "elasticity": 0.0}
-    row |= {"status": "ok", "acceleration": 40.0}
-    wrong = row | {"derivative": 1.0, "elasticity": 1.0, "status": "differences disagree"}
-    derivatives = pd.DataFrame([row, wrong])
+def test_points_that_are_not_found_again_are_counted():
+    lost = {
+        "kind": "critical_height",
+        "parameter": "mass",
+        "change": np.nan,
+        "elasticity": np.nan,
+        "acceleration": 40.0,
+    }
+    lost["status"] = "not found again beside it"
+    changes = pd.DataFrame([lost])
     curves = pd.DataFrame({"parameter": [], "kind": [], "begin": [], "meeting": [], "status": [], "damping_group": []})
     curves.attrs = {"model": {"exponent": 1.5}}
     tables = {"continued": curves, "meetings": curves, "bifurcations": pd.DataFrame({"period": [], "kind": []})}
-    text = caption("sensitivity", derivatives=derivatives, **tables)
-    assert "No derivative passed the check" in text
-    right = pd.DataFrame([row | {"derivative": 2.0, "difference": 2.0 + 2e-8, "elasticity": 1.0}, wrong])
-    text = caption("sensitivity", derivatives=right, **tables)
-    assert "to a relative error of 1e-8 (derivatives that fail this check: 1)" in text
-    lost = row | {"derivative": np.nan, "elasticity": np.nan, "status": "not found again"}
-    both = pd.concat([right, pd.DataFrame([lost, lost])])
-    text = caption("sensitivity", derivatives=both, **tables)
-    assert "(derivatives that fail this check: 1, that were not found: 2)" in text
-    none = derivatives.assign(kind="critical_amplitude")
-    assert "There is no derivative" in caption("sensitivity", derivatives=none, **tables)
+    assert "No point was found again beside it" in caption("sensitivity", changes=changes, **tables)
+    right = pd.DataFrame([lost | {"change": 1e-6, "elasticity": 1.0, "status": "ok"}])
+    text = caption("sensitivity", changes=right, **tables)
+    assert "one per cent less of the parameter." in " ".join(text.split())
+    both = pd.concat([right, changes, changes, changes.assign(status=UNEVEN)])
+    text = caption("sensitivity", changes=both, **tables)
+    assert "left out: 2 that were not found again, 1 whose two sides differ" in text
+    none = changes.assign(kind="critical_amplitude")
+    assert "There is no change to show" in caption("sensitivity", changes=none, **tables)
 
 
 def test_an_empty_map_of_tracks_is_explained():

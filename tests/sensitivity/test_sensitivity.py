@@ -1,13 +1,13 @@
-"""Tables from a few bifurcations: identities between columns, selection, and rows for points that are not found."""
+"""Tables from a few bifurcations: closed forms, identities between columns, selection, and points that are lost."""
 
 import numpy as np
 import pandas as pd
 import pytest
 from project import read_config
 
-from conveyor.analysis.bifurcations import doubling_cascade
+from conveyor import find_bifurcation, groups_of
 from pipeline import grid
-from sensitivity import curves, derivatives, selection
+from sensitivity import changes, curves, selection
 
 SETTINGS = read_config()["sensitivity"]
 MODEL = {name: value for name, value in read_config()["model"].items() if name != "acceleration"}
@@ -34,8 +34,7 @@ def tables():
 
 @pytest.fixture(scope="module")
 def made(tables):
-    found = derivatives.make(*tables, {**SETTINGS, "effort": 0.3, "model": MODEL})
-    return {kind: pd.DataFrame(columns) for kind, columns in found.items()}
+    return pd.DataFrame(changes.make(*tables, {**SETTINGS, "effort": 0.3, "model": MODEL}))
 
 
 @pytest.fixture(scope="module")
@@ -68,60 +67,72 @@ def test_a_point_that_is_not_found_again_keeps_its_row_with_a_reason(tables):
     parameters = grid.row_of(MODEL)
     (one,) = selection.select_bifurcations(parameters, lost, tables[1].iloc[:0], 0)
     assert one.point is None
-    rows = list(derivatives.physical_rows(derivatives.differentiate_bifurcation(parameters, one)))
+    (point,) = changes.moved_bifurcations(parameters, [one])
+    rows = list(changes.rows_of_point(point))
     assert {row["status"] for row in rows} == {"not found again"}
-    assert all(np.isnan(row["derivative"]) for row in rows)
+    assert all(np.isnan(row["change"]) for row in rows)
 
 
 @pytest.mark.parametrize("rows", [4, 0])
 def test_a_conveyor_without_critical_heights_has_no_critical_amplitude(tables, rows):
     none = tables[2].assign(is_critical=False)
     none.attrs = tables[2].attrs
-    found = derivatives.make(
-        tables[0].iloc[:rows], tables[1].iloc[:0], none, {**SETTINGS, "effort": 0.3, "model": MODEL}
+    found = changes.make(tables[0].iloc[:rows], tables[1].iloc[:0], none, {**SETTINGS, "effort": 0.3, "model": MODEL})
+    assert set(found["kind"]) == ({"fold", "grazing", "period_doubling"} if rows else set())
+
+
+def test_every_point_is_found_again(made):
+    assert set(made.status) == {"ok"}
+    assert set(made.kind) == {"fold", "grazing", "period_doubling", "critical_amplitude", "critical_height"}
+
+
+def test_changes_obey_dimensional_analysis(made):
+    """â is m/s², k_c kg m^(1-p)/s², d_c kg/s: a change of the units of mass, length and time changes nothing else.
+
+    Differences over 1 % are exact to about 1e-4.
+    """
+    for (kind, _), rows in made[made.moved == "acceleration"].groupby(["kind", "acceleration"]):
+        found, near = rows.set_index("parameter").elasticity, {"abs": 2e-3}
+        assert found["mass"] + found["stiffness"] + found["damping"] == pytest.approx(0.0, **near), kind
+        assert found["gravity"] + (1.0 - MODEL["exponent"]) * found["stiffness"] == pytest.approx(1.0, **near), kind
+        time = found["frequency"] + 2.0 * found["gravity"] + 2.0 * found["stiffness"] + found["damping"]
+        assert time == pytest.approx(2.0, **near), kind
+        angle = MODEL["angle"]
+        assert found["angle"] == pytest.approx(-angle / np.tan(angle), **near), kind
+
+
+def test_the_lift_off_of_a_linear_contact_changes_as_its_closed_form(tables):
+    """It leaves the plate at a_z/g = |K - 1 + iD|/K, with K = k_c/(m ω²) and D = d_c/(m ω)."""
+    model = MODEL | {"exponent": 1.0, "stiffness": 35000.0, "damping": 0.3}
+    omega = 2.0 * np.pi * model["frequency"]
+
+    def amplitude(mass):
+        stiffness, damping = model["stiffness"] / (mass * omega**2), model["damping"] / (mass * omega)
+        return abs(stiffness - 1.0 + 1j * damping) / stiffness * model["gravity"] / np.sin(model["angle"])
+
+    groups = groups_of(grid.row_of(model))
+    response = groups.stiffness - 1.0 + 1j * groups.damping
+    phase = (np.pi + np.angle(response)) % (2.0 * np.pi)
+    point = find_bifurcation("grazing", 1, np.array([phase, abs(response) / groups.stiffness]), groups)
+    one = selection.Selected("grazing", 1, amplitude(model["mass"]), point, 0, True)
+    (moved,) = changes.moved_bifurcations(grid.row_of(model), [one])
+    change, status = changes.change_by_one_per_cent(moved, "mass")
+    mass = model["mass"]
+    assert status == "ok"
+    assert change == pytest.approx(0.5 * (amplitude(1.01 * mass) - amplitude(0.99 * mass)), rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("jump", "status"), [(0.0, "ok"), (1.0, changes.UNEVEN), (np.nan, "not found again beside it")]
+)
+def test_a_side_that_leads_to_another_point_counts_as_no_change(jump, status):
+    row = grid.row_of(MODEL | {"acceleration": 40.0})
+    point = changes.MovedPoint(
+        "fold", 1, row, "acceleration", lambda other: 40.0 + (jump if other["mass"] > row["mass"] else 0.0)
     )
-    kinds = {"fold", "grazing", "period_doubling"} if rows else set()
-    assert set(found["derivatives"]["kind"]) == set(found["groups"]["kind"]) == kinds
-
-
-def test_differences_agree(made):
-    table = made["derivatives"]
-    assert set(table.status) == {"ok"}
-    moving = table[table.elasticity.abs() > 0.01]
-    assert np.abs(moving.difference / moving.derivative - 1.0).max() < 1e-4
-    assert set(table.kind) == {"fold", "grazing", "period_doubling", "critical_amplitude", "critical_height"}
-
-
-def test_friction_moves_nothing_and_the_phase_only_boundaries(made):
-    table = made["derivatives"]
-    assert (table[table.parameter == "friction"].derivative == 0.0).all()
-    phases = table[table.parameter == "psi0"].set_index("kind").derivative
-    assert (phases[["fold", "grazing", "period_doubling"]] == 0.0).all()
-    assert (phases[["critical_amplitude", "critical_height"]] != 0.0).all()
-
-
-def test_elasticities_by_groups_and_by_parameters_are_one(made):
-    """d_c and k_c act through one group each."""
-    physical, groups = made["derivatives"], made["groups"]
-    for name in ("damping", "stiffness"):
-        left = physical[physical.parameter == name].set_index(["kind", "acceleration"]).elasticity
-        right = groups[groups.group == name].set_index(["kind", "acceleration"]).elasticity
-        both = left.notna() & right.notna()
-        assert both.sum() >= 4
-        assert left[both].to_numpy() == pytest.approx(right[both].to_numpy(), rel=1e-10)
-
-
-def test_weights_are_the_derivatives_of_aitkens_process():
-    amplitudes = np.array([54.0, 61.0, 62.4, 62.7])
-    found = derivatives.aitken_weights(*amplitudes[1:])
-    assert found.sum() == pytest.approx(1.0)
-    for place in range(3):
-        ends = []
-        for sign in (1.0, -1.0):
-            changed = amplitudes.copy()
-            changed[1 + place] += sign * 1e-6
-            ends.append(doubling_cascade.accumulation_point(changed)[0])
-        assert found[place] == pytest.approx((ends[0] - ends[1]) / 2e-6, rel=1e-5)
+    change, found = changes.change_by_one_per_cent(point, "mass")
+    assert found == status
+    assert np.isnan(change) == (status != "ok")
 
 
 def test_curves_in_parameters_and_in_groups(tables):

@@ -110,7 +110,9 @@ def test_captions_say_what_a_conveyor_does_not_have(builds):
     assert "no critical height" in riding["fig09"]
     assert riding["fig12"].endswith("All initial conditions lead to the first state.")
     assert "None of these orbits folds or doubles its period." in riding["bifurcation"]
-    assert "There is no derivative, because no bifurcation and no critical height was found." in riding["sensitivity"]
+    assert (
+        "There is no change to show, because no bifurcation and no critical height was found." in riding["sensitivity"]
+    )
     assert riding["fig17"].endswith("All initial heights lead to the first state.")
     sliding = runs["sliding"][1]
     assert "No motion has a mean velocity (slides away)." in sliding["operating"]

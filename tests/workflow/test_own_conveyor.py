@@ -118,7 +118,7 @@ def test_figures_of_the_paper_are_drawn_for_another_conveyor_if_named(tmp_path):
 def test_a_figure_that_takes_no_harmonics_says_so(tmp_path):
     run = planned({"prefix": "mine", "model": {"harmonics": [HARMONIC]}}, tmp_path, "figures/mine/sensitivity.pdf")
     assert run.returncode != 0
-    assert "figures/mine/sensitivity.pdf cannot be made with this config: its derivatives" in run.stdout
+    assert "figures/mine/sensitivity.pdf cannot be made with this config: its bifurcations" in run.stdout
 
 
 @pytest.mark.parametrize(

@@ -2,18 +2,9 @@
 import hashlib
 import json
 
-# The tables that figures, captions and claims are made from, and tables that the same jobs make for pages only.
-QUOTED_TABLES = sorted({*references_of(config["figures"]), *references_of(config["claims"])})
-BYPRODUCTS = {
-    "sensitivity/derivatives": "sensitivity/groups",
-}
+# The tables that figures, captions, claims and tests of the results read.
 BUILT_TABLES = sorted(
-    {
-        "results/claims",
-        *QUOTED_TABLES,
-        *TESTED_TABLES,
-        *(BYPRODUCTS[name] for name in QUOTED_TABLES if name in BYPRODUCTS),
-    }
+    {"results/claims", *references_of(config["figures"]), *references_of(config["claims"]), *TESTED_TABLES}
 )
 BUILT_FILES = [
     *map(table, BUILT_TABLES),

@@ -7,13 +7,13 @@ rule sensitivity:
         **tables_of("orbits/folds_and_doublings", "orbits/cascade"),
         critical=table(f"critical/{config['sensitivity']['critical']}"),
     output:
-        **tables_of("sensitivity/derivatives", "sensitivity/groups"),
+        table("sensitivity/changes"),
     log:
-        log_file("sensitivity/derivatives"),
+        log_file("sensitivity/changes"),
     benchmark:
-        benchmark_file("sensitivity/derivatives")
+        benchmark_file("sensitivity/changes")
     params:
-        **stage("sensitivity.derivatives", "sensitivity/derivatives"),
+        **stage("sensitivity.changes", "sensitivity/changes"),
     script:
         "../../scripts/make.py"
 

@@ -12,7 +12,6 @@ the track do not act on the vertical motion. An initial condition adds ψ0, z0 �
 """
 
 import math
-from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -21,21 +20,6 @@ from ..packing import as_rows, refuse_harmonics
 from ..solver import contact_law, model
 from ..solver.model import PARAMETERS, normal_gravity
 
-# The groups in the order of their derivatives. The last three, z0 ω²/g, ż0 ω/g and ψ0, are the initial condition.
-GROUP_NAMES = ("amplitude", "damping", "stiffness", "exponent", "height", "velocity", "phase")
-AMPLITUDE, DAMPING, STIFFNESS, EXPONENT, HEIGHT, VELOCITY, PHASE = range(len(GROUP_NAMES))
-# The parameters that an equation between the groups may determine, and their groups.
-GROUP_OF = {"acceleration": AMPLITUDE, "z0": HEIGHT}
-# Parameters that move a single group, and the exponent, which also moves K and therefore comes last.
-PARAMETER_OF = {
-    AMPLITUDE: "acceleration",
-    DAMPING: "damping",
-    STIFFNESS: "stiffness",
-    HEIGHT: "z0",
-    VELOCITY: "vz0",
-    PHASE: "psi0",
-    EXPONENT: "exponent",
-}
 # A conveyor whose parameters equal its dimensionless groups: g = 1, ω = 1, m = 1, φ = 90°.
 FREQUENCY_OF_ONE = 0.5 / math.pi
 
@@ -106,115 +90,3 @@ def amplitude_of(parameters: np.ndarray, ratio: float) -> float:
     """
     parameters = as_rows(parameters)
     return float(ratio * normal_gravity(parameters) / math.sin(parameters[model.ANGLE]))
-
-
-def scaled_start(parameters: np.ndarray) -> tuple[float, float, float]:
-    """The groups of one initial condition: z0 ω²/g, ż0 ω/g and ψ0 (rad).
-
-    Examples
-    --------
-    >>> height, velocity, phase = scaled_start(parameter_table(Conveyor(), z0=3e-4))
-    >>> round(height, 4), velocity, phase
-    (3.0182, 0.0, 0.0)
-    """
-    parameters = as_rows(parameters)
-    length, velocity = length_and_speed_units(parameters)
-    return float(parameters[model.Z0] / length), float(parameters[model.VZ0] / velocity), float(parameters[model.PSI0])
-
-
-def slopes(parameters: np.ndarray) -> dict[str, np.ndarray]:
-    """Derivatives of all groups, in the order of GROUP_NAMES, by each parameter that is a number: shape (7,).
-
-    The derivative by the exponent is at constant k_c in N/m^p, whose unit changes with p.
-    """
-    groups = groups_of(parameters)
-    height, velocity_ratio, _ = scaled_start(parameters)
-    value = dict(zip(PARAMETERS, map(float, parameters), strict=True))
-    length, velocity = length_and_speed_units(parameters)
-    ratio, damping, stiffness, p, _ = groups
-    sine, cosine = math.sin(value["angle"]), math.cos(value["angle"])
-    frequency, gravity, mass = value["frequency"], normal_gravity(parameters), value["mass"]
-    by_mass, by_omega, by_gravity = contact_law.POWERS_IN_DAMPING
-    of_gravity = {
-        AMPLITUDE: -ratio / gravity,
-        DAMPING: -by_gravity * damping / gravity,
-        STIFFNESS: (p - 1.0) * stiffness / gravity,
-        HEIGHT: -height / gravity,
-        VELOCITY: -velocity_ratio / gravity,
-    }
-    rise, fall = math.cos(value["inclination"]), -value["gravity"] * math.sin(value["inclination"])
-    by = {
-        "acceleration": {AMPLITUDE: sine / gravity},
-        "angle": {AMPLITUDE: value["acceleration"] * cosine / gravity},
-        "frequency": {
-            DAMPING: -by_omega * damping / frequency,
-            STIFFNESS: -2.0 * p * stiffness / frequency,
-            HEIGHT: 2.0 * height / frequency,
-            VELOCITY: velocity_ratio / frequency,
-        },
-        "psi0": {PHASE: 1.0},
-        "stiffness": {STIFFNESS: stiffness / value["stiffness"]},
-        "damping": {DAMPING: 1.0 / contact_law.unit_of_damping(mass, 2.0 * math.pi * frequency, gravity)},
-        "friction": {},
-        "mass": {DAMPING: -by_mass * damping / mass, STIFFNESS: -stiffness / mass},
-        "exponent": {STIFFNESS: stiffness * math.log(length), EXPONENT: 1.0},
-        "gravity": {group: slope * rise for group, slope in of_gravity.items()},
-        "inclination": {group: slope * fall for group, slope in of_gravity.items()},
-        "phase_shift": {},
-        "static_friction": {},
-        "z0": {HEIGHT: 1.0 / length},
-        "vz0": {VELOCITY: 1.0 / velocity},
-    }
-    table = {name: np.zeros(len(GROUP_NAMES)) for name in by}
-    for name, entries in by.items():
-        for group, slope in entries.items():
-            table[name][group] = slope
-    return table
-
-
-def derivatives_of_groups(moved: str, parameters: np.ndarray, by: np.ndarray) -> dict[str, float]:
-    """Derivatives of a parameter that an equation between the groups determines, by each of the other parameters.
-
-    Returns them by the names of the parameters, in units of `moved` per unit of the parameter.
-
-    Parameters
-    ----------
-    moved : a name in GROUP_OF
-    parameters : a row of a table of parameters, at which the equation holds
-    by : derivatives of the group of `moved`, Γ or z0 ω²/g, by all GROUP_NAMES, shape (7,); its own 0
-
-    Examples
-    --------
-    >>> by = np.array([0.0, 0.37, 0.0, 0.0, 0.0, 0.0, 0.0])  # Γ = 0.37 D + constant
-    >>> derivatives = derivatives_of_groups("acceleration", parameter_table(Conveyor()), by)
-    >>> round(derivatives["damping"], 1)  # m/s² per N s/m
-    79.4
-    """
-    of, own = slopes(as_rows(parameters)), GROUP_OF[moved]
-    return {
-        name: float((np.sum(by * slope) - slope[own]) / of[moved][own]) for name, slope in of.items() if name != moved
-    }
-
-
-def derivatives_by_groups(moved: str, parameters: np.ndarray, by: Mapping[str, float]) -> np.ndarray:
-    """Derivatives of the group of `moved` by all GROUP_NAMES, shape (7,); the inverse of `derivatives_of_groups`.
-
-    Parameters
-    ----------
-    moved : a name in GROUP_OF
-    parameters : a row of a table of parameters, at which the equation holds
-    by : derivatives of `moved` by the other parameters in PARAMETER_OF
-
-    Examples
-    --------
-    >>> row, by = parameter_table(Conveyor()), np.array([0.0, 0.37, 0.0, 0.0, 0.0, 0.0, 0.0])
-    >>> derivatives_by_groups("acceleration", row, derivatives_of_groups("acceleration", row, by)).round(12).tolist()
-    [0.0, 0.37, 0.0, 0.0, 0.0, 0.0, 0.0]
-    """
-    of, own = slopes(as_rows(parameters)), GROUP_OF[moved]
-    derivatives = np.zeros(len(GROUP_NAMES))
-    for group, name in PARAMETER_OF.items():
-        if group != own:
-            rest = by[name] * of[moved][own] - np.sum(derivatives * of[name])
-            derivatives[group] = rest / of[name][group]
-    return derivatives

@@ -9,8 +9,7 @@ from matplotlib.ticker import LogLocator
 
 from figures import style
 
-# Labels of the parameters, from top to bottom. Parameters without effect are left out, and so is the exponent, because
-# the unit of k_c depends on it.
+# Labels of the parameters, from top to bottom.
 NAMES = {
     "acceleration": "amplitude $\\hat{a}$",
     "angle": "angle $\\varphi$",
@@ -123,25 +122,23 @@ def draw_curves(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parame
     axes.set_ylabel("amplitude group $\\Gamma = a_z/g$")
 
 
-def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.DataFrame) -> Figure:
-    """Draw derivatives, and bifurcation curves over two dimensionless groups."""
+def plot(*, changes: pd.DataFrame, continued: pd.DataFrame, meetings: pd.DataFrame) -> Figure:
+    """Draw changes by one per cent of each parameter, and bifurcation curves over two dimensionless groups."""
     figure = style.figure(style.PAGE, 140.0)
     (amplitudes, heights), (damping, stiffness) = figure.subplots(2, 2, height_ratios=(1.0, 1.15))
 
-    named = {label: rows for label, rows in select_points(derivatives).items() if len(rows)}
+    named = {label: rows for label, rows in select_points(changes).items() if len(rows)}
     draw_dots(amplitudes, named, [name for name in NAMES if name != "acceleration"], "elasticity", POINTS)
     amplitudes.set_xlabel("change of $\\hat{a}$ in % per % of the parameter")
     if named:
         amplitudes.legend(loc="lower left", bbox_to_anchor=(-0.19, 1.0), ncols=2, columnspacing=0.6, handletextpad=0.2)
     else:
-        has_bifurcations = derivatives.kind.isin(("fold", "period_doubling")).any()
-        style.say(
-            amplitudes, "no derivative passed the check" if has_bifurcations else "no fold and no period doubling"
-        )
+        has_bifurcations = changes.kind.isin(("fold", "period_doubling")).any()
+        style.say(amplitudes, "no point was found again" if has_bifurcations else "no fold and no period doubling")
         amplitudes.set_xticks([])
 
-    rows = derivatives[(derivatives.kind == "critical_height") & (derivatives.status == "ok")]
-    rows = rows.assign(per_percent=1e4 * rows.derivative * rows.value)
+    rows = changes[(changes.kind == "critical_height") & (changes.status == "ok")]
+    rows = rows.assign(per_percent=1e6 * rows.change)
     by_amplitude = {f"{acceleration:.4g} m/s²": group for acceleration, group in rows.groupby("acceleration")}
     shades = colormaps["viridis"](np.linspace(0.0, 0.85, max(len(by_amplitude), 1)))
     looks = {label: {"marker": "o", "color": shade} for label, shade in zip(by_amplitude, shades, strict=False)}
@@ -150,8 +147,8 @@ def plot(*, derivatives: pd.DataFrame, continued: pd.DataFrame, meetings: pd.Dat
     if by_amplitude:
         heights.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4, columnspacing=0.7, handletextpad=0.0)
     else:
-        has_heights = (derivatives.kind == "critical_height").any()
-        style.say(heights, "no derivative passed the check" if has_heights else "no critical height")
+        has_heights = (changes.kind == "critical_height").any()
+        style.say(heights, "no point was found again" if has_heights else "no critical height")
         heights.set_xticks([])
 
     draw_curves(damping, continued, meetings, "damping", "damping group $D = d_c/(m\\omega)$")

@@ -155,34 +155,6 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
     return None if here is None else BifurcationPoint(kind, period, here, groups._replace(amplitude=float(here[-1])))
 
 
-def differentiate_unknowns(point: BifurcationPoint) -> np.ndarray | None:
-    """Derivatives of the unknowns of a bifurcation by D, K and p, shape (k, 3), by the implicit function theorem.
-
-    They serve to guess the unknowns for other groups: they have four correct digits in short orbits, and fewer in long
-    ones. The last row is that of Γ. None where the system is singular (a codimension-two point) or cannot be evaluated.
-
-    Examples
-    --------
-    >>> fold = find_bifurcation("fold", 1, np.array([-3.41, 1.61, 0.508]), groups_of(parameter_table(Conveyor())))
-    >>> differentiate_unknowns(fold)[-1, 0].round(2).item()  # ∂Γ/∂D
-    0.37
-    """
-    values = np.array(point.groups[1:4])
-    scales = np.where(values > 0.0, values, 1.0)
-
-    def with_groups(ratios):
-        damping, stiffness, exponent = (float(value) for value in values + scales * ratios)
-        changed = point.groups._replace(damping=damping, stiffness=stiffness, exponent=exponent)
-        return conditions(point.kind, point.period, point.unknown, changed)
-
-    by_unknowns = difference_quotients(
-        lambda here: conditions(point.kind, point.period, here, point.groups), point.unknown, DIFFERENCE
-    )
-    by_groups = difference_quotients(with_groups, np.zeros(3), DIFFERENCE) / scales
-    is_finite = np.isfinite(by_unknowns).all() and np.isfinite(by_groups).all()
-    return linear_algebra.solve(by_unknowns, -by_groups) if is_finite else None
-
-
 def touching_point(groups: Groups, state: np.ndarray, period: int) -> np.ndarray | None:
     """The phase ψ at which an orbit comes closest to touching the plate with no speed, and Γ.
 
