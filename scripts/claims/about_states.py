@@ -25,13 +25,13 @@ def critical_acceleration(*, euler: pd.DataFrame, converged: pd.DataFrame) -> Fi
     return single_quantity("critical_amplitude", second_from_rest, euler, converged)
 
 
-def influences(*, derivatives: pd.DataFrame, frictions: pd.DataFrame) -> Finding:
+def influences(*, changes: pd.DataFrame, frictions: pd.DataFrame) -> Finding:
     """Absolute elasticities of the critical amplitude: its relative change over the relative change of a parameter.
 
-    derivatives : of the critical amplitude of a part from rest by the parameters of the motion normal to the track
+    changes : of the critical amplitude of a part from rest with the parameters of the motion normal to the track
     frictions : states of parts from rest over friction and amplitude, because friction is no parameter of that motion
     """
-    rows = derivatives[(derivatives.kind == "critical_amplitude") & (derivatives.status == "ok")]
+    rows = changes[(changes.kind == "critical_amplitude") & (changes.status == "ok")]
     elasticities = rows.set_index("parameter").elasticity.abs()
     critical = pd.Series({friction: second_from_rest(rows) for friction, rows in frictions.groupby("friction")})
     span = critical.index.max() / critical.index.min()

@@ -2,7 +2,7 @@
 
 
 rule sensitivity:
-    """Derivatives of bifurcations and critical heights."""
+    """Changes of bifurcations and critical heights with each parameter."""
     input:
         **tables_of("orbits/folds_and_doublings", "orbits/cascade"),
         critical=table(f"critical/{config['sensitivity']['critical']}"),
