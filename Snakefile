@@ -43,7 +43,7 @@ try:
 except ConfigError as error:
     raise WorkflowError(str(error))
 config = loaded.config
-IS_PAPER = loaded.is_paper
+IS_PAPER, ASSUMED_PARTS = loaded.is_paper, loaded.assumed
 
 
 report: "workflow/report/workflow.rst"

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import yaml
 
+from workflow.config import canonical
 from workflow.config.entries import ENTRIES
 from workflow.config.files import merge as merged
 from workflow.config.stages import STAGES
@@ -39,6 +40,11 @@ CONFIG_FILES = ("config", *STAGES)
 def read_config(*files: str) -> dict:
     """The merged default config, or the merged config of some files."""
     return copy.deepcopy(merged(*map(content_of, files or CONFIG_FILES)))
+
+
+def si_config() -> dict:
+    """The default config in its one form, without dimensionless values."""
+    return canonical(read_config())
 
 
 @cache

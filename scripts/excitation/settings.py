@@ -5,7 +5,19 @@ from typing import NotRequired
 from typing_extensions import TypedDict
 
 from ..operating.settings import parts_settings
-from ..pipeline.settings import Acceleration, Line, check_ascending, described, many, mapping, number, whole, word
+from ..pipeline.settings import (
+    THROW,
+    Acceleration,
+    Line,
+    check_ascending,
+    described,
+    dimensionless,
+    many,
+    mapping,
+    number,
+    whole,
+    word,
+)
 
 Column = described(Line, "name of a column in the file; a minus before it reverses the axis")
 COLUMNS = dict.fromkeys(("time", "x", "z", "along", "normal"), NotRequired[Column])
@@ -21,8 +33,12 @@ class Excitation(TypedDict):
 
 
 class CleanDrive(TypedDict):
-    riding: many(Acceleration, "amplitudes at which the slowest parts ride")
-    chaos: many(Acceleration, "amplitudes in chaos")
+    dimensionless: dimensionless(
+        riding=many(THROW, "throw numbers at which the slowest parts ride"),
+        chaos=many(THROW, "throw numbers in chaos"),
+    )
+    riding: NotRequired[many(Acceleration, "amplitudes at which the slowest parts ride")]
+    chaos: NotRequired[many(Acceleration, "amplitudes in chaos")]
     orders: many(whole("order of a harmonic", 2, 20), "orders of the harmonic")
     shares: many(number("share of a harmonic, over the fundamental", gt=0, le=1), "shares", check=check_ascending)
     phases: whole("phases of the harmonic, over a whole turn", 1, 360)

@@ -1,6 +1,7 @@
 """The operating chart in words: advice, a summary and a table, with all numbers from the tables."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
@@ -138,8 +139,9 @@ def make(
     regimes: pd.DataFrame,
     advice: pd.DataFrame,
     changes: pd.DataFrame,
+    assumed: Sequence[str],
 ) -> str:
-    """The page from its template and its tables."""
+    """The page from its template and its tables; `assumed` are differences of parts that the config does not state."""
     merged = merge_narrow(regimes, advice.attrs["margin"])
     velocities = ["velocity_low", "best_low", "best_high"]
     merged[velocities] = merged[velocities].round(DECIMALS) + 0.0  # no negative zero
@@ -149,6 +151,7 @@ def make(
         values["fastest"] = summarize_fastest(shares, values["several"])
     values |= {
         "units": UNITS,
+        "assumed": {name: transit.attrs["spread"][name] for name in assumed},
         "options": advice.attrs,
         "forward": moves_forward(transit),
         "still": STILL,

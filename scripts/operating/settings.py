@@ -10,13 +10,15 @@ from typing_extensions import TypedDict
 from ..conveyor import DESCRIPTIONS, UNITS
 from ..pipeline.settings import (
     MODEL_TYPES,
+    THROW,
     Acceleration,
-    Accelerations,
     Effort,
     Seed,
     Tolerance,
     Velocity,
+    axis,
     described,
+    dimensionless,
     interval,
     mapping,
     number,
@@ -28,11 +30,22 @@ from ..pipeline.table_settings import INITIAL_CONDITION, model_of
 DEVIATION = number("relative standard deviation", "of the value in the model", ge=0, le=1)
 
 
+# An overlay may give some keys of {start, stop, num} in SI units.
+AMPLITUDES = NotRequired[axis(Acceleration, DESCRIPTIONS["acceleration"], partial=True)]
+THROWS = axis(THROW, "throw numbers")
+
+
 class Operating(TypedDict):
-    acceleration: Accelerations
-    resolution: number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)
-    height: interval(number("height above the plate", "m", ge=0, le=10), "initial heights", point=True)
-    vz0: interval(Velocity, "initial velocities", point=True)
+    dimensionless: dimensionless(
+        acceleration=THROWS,
+        resolution=number("width to which a bracket is halved", gt=0, le=1e3),
+        height=interval(number("height above the plate", ge=0, le=1e6), "initial heights", point=True),
+        vz0=interval(number("initial velocity", ge=-1e6, le=1e6), "initial velocities", point=True),
+    )
+    acceleration: AMPLITUDES
+    resolution: NotRequired[number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)]
+    height: NotRequired[interval(number("height above the plate", "m", ge=0, le=10), "initial heights", point=True)]
+    vz0: NotRequired[interval(Velocity, "initial velocities", point=True)]
     psi0: interval(MODEL_TYPES["psi0"], "phases of the excitation", point=True)
     starts: whole("random initial conditions per amplitude", 16, 10**6)
     seed: Seed
@@ -52,7 +65,8 @@ class Parts(TypedDict):
 
 
 class Transit(TypedDict):
-    acceleration: Accelerations
+    dimensionless: dimensionless(acceleration=THROWS)
+    acceleration: AMPLITUDES
     length: number("length of the track", "m", ge=1e-3, le=1e4)
     longest: number("time after which a part is late", "s", gt=0, le=1e5)
     parts: whole("parts with random initial conditions per amplitude", 8, 10**6)
@@ -62,10 +76,9 @@ class Advice(TypedDict):
     margin: number("relative error of the amplitude within which the advice must hold", gt=0, lt=1)
     changes: mapping(
         "changes of single parameters, up and down",
-        {
-            name: number(f"change of {name}", UNITS[name], gt=0)
-            for name in ("angle", "frequency", "friction", "inclination", "phase_shift")
-        },
+        {"dimensionless": dimensionless(frequency=number("change of the frequency, over the model's", gt=0, lt=1))}
+        | {name: NotRequired[number(f"change of {name}", UNITS[name], gt=0)] for name in ("angle", "frequency")}
+        | {name: number(f"change of {name}", UNITS[name], gt=0) for name in ("friction", "inclination", "phase_shift")},
     )
     part_length: NotRequired[number("length of a part in the feeding direction", "m", gt=0, le=10)]
 
@@ -76,7 +89,8 @@ class Throws(TypedDict):
 
 
 class Track(TypedDict):
-    acceleration: Acceleration
+    dimensionless: dimensionless(acceleration=THROW)
+    acceleration: NotRequired[Acceleration]
     inclination: span(MODEL_TYPES["inclination"], "inclinations of the track")
     phase_shift: span(MODEL_TYPES["phase_shift"], "phase shifts of the drive")
     starts: whole("random initial conditions per inclination", 2, 10**6)
@@ -84,12 +98,17 @@ class Track(TypedDict):
 
 class DriveSearch(TypedDict):
     parts: whole("parts per design", 8, 10**6)
-    longest: number("time for which a part is followed", "s", gt=0, le=1e5)
+    dimensionless: dimensionless(longest=number("time for which a part is followed", gt=0, le=1e9))
+    longest: NotRequired[number("time for which a part is followed", "s", gt=0, le=1e5)]
 
 
 class DriveBounds(TypedDict):
-    acceleration: interval(MODEL_TYPES["acceleration"], DESCRIPTIONS["acceleration"])
-    frequency: interval(MODEL_TYPES["frequency"], DESCRIPTIONS["frequency"])
+    dimensionless: dimensionless(
+        acceleration=interval(THROW, "throw numbers, at the model's angle"),
+        frequency=interval(number("frequency over the model's", gt=0, le=100), "frequencies"),
+    )
+    acceleration: NotRequired[interval(MODEL_TYPES["acceleration"], DESCRIPTIONS["acceleration"])]
+    frequency: NotRequired[interval(MODEL_TYPES["frequency"], DESCRIPTIONS["frequency"])]
     angle: interval(MODEL_TYPES["angle"], DESCRIPTIONS["angle"])
     phase_shift: interval(MODEL_TYPES["phase_shift"], DESCRIPTIONS["phase_shift"])
     harmonic_share: NotRequired[

@@ -127,6 +127,8 @@ def check_interval(values: list, point: bool) -> list:
 
 
 def check_span(values: dict) -> dict:
+    if len(values) < 3:  # the default has the other keys
+        return values
     start, stop, num = values["start"], values["stop"], values["num"]
     if start > stop:
         raise ValueError("is reversed: start is above stop; exchange start and stop")
@@ -149,10 +151,10 @@ def interval(item: Any, description: str, point: bool = False) -> Any:
     return Annotated[list[item], field, AfterValidator(partial(check_interval, point=point))]
 
 
-def span(item: Any, description: str, least: int = 2) -> Any:
-    """{start, stop, num}: num evenly spaced values from start to stop, both included."""
+def span(item: Any, description: str, least: int = 2, partial: bool = False) -> Any:
+    """{start, stop, num}: num evenly spaced values from start to stop, both included; some of them, if `partial`."""
     keys = {"start": item, "stop": item, "num": whole("number of values", least, MOST_POINTS)}
-    return Annotated[mapping(description, keys), AfterValidator(check_span)]
+    return Annotated[mapping(description, keys, total=not partial), AfterValidator(check_span)]
 
 
 def either(description: str, expected: str, choose, **forms: Any) -> Any:
@@ -177,9 +179,11 @@ def height_form(value: Any) -> str | None:
     return "word" if value == "conveyor" else None if isinstance(value, str) and not is_number(value) else "number"
 
 
-def axis(item: Any, description: str, end: Any = None, least: int = 1, check=check_distinct) -> Any:
+def axis(
+    item: Any, description: str, end: Any = None, least: int = 1, check=check_distinct, partial: bool = False
+) -> Any:
     """A list of values or a span; `end` is the type of start and stop where a value may also be a word."""
-    forms = {"list": many(item, description, least, check), "span": span(end or item, description, least)}
+    forms = {"list": many(item, description, least, check), "span": span(end or item, description, least, partial)}
     return either(description, "a list of values, or {start: …, stop: …, num: …}", axis_form, **forms)
 
 
@@ -187,6 +191,17 @@ def parameter(name: str, description: str = "") -> Any:
     """A number with the unit and the range of a parameter of the library."""
     low, high = RANGES[name]
     return number(description or DESCRIPTIONS[name], UNITS[name], ge=low, le=high)
+
+
+def dimensionless(**keys: Any) -> Any:
+    """Values in the scales of the conveyor, which workflow/config/scales.py converts to SI units."""
+    about = (
+        "throw numbers, heights in g cos α/ω², velocities in g cos α/ω, times in cycles, frequencies over the model's"
+    )
+    return NotRequired[mapping(f"{about}; values in SI units beside this key replace them", keys)]
+
+
+THROW = number("throw number a_z/(g cos α)", ge=0, le=1e6)
 
 
 def keep_order(values: Any, validate) -> dict:

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from project import read_config
+from project import si_config
 
 from calibration.calibrate import make
 from calibration.synthetic import csv_text, measure
@@ -28,7 +28,7 @@ def log_uniform(ends, random):
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_the_intervals_contain_the_true_values(seed):
     random = np.random.default_rng([48, seed])
-    config = read_config()
+    config = si_config()
     settings = settings_of(config, "calibration/parameters") | {"measurements": "mine.csv"}
     model = {name: value for name, value in settings["model"].items() if name != "static_friction"}
     ratio = 1.0 / model["frequency"]

@@ -2,7 +2,7 @@
 
 import re
 
-from project import ROOT, STAGES, read_config
+from project import ROOT, STAGES, si_config
 
 from docs import tables_page
 from workflow.config.tables import kind_of, references
@@ -21,7 +21,7 @@ def test_paths_are_the_paths_of_the_workflow():
     stages = set(STAGES) - set(tables_page.WITHOUT_TABLES)
     tables = [(stage, module.TABLES) for stage in stages for module in tables_page.modules_of(stage)]
     shown = {tables_page.file_of(kind, kinds, stage) for stage, kinds in tables for kind in kinds}
-    for reference in references(read_config()):
+    for reference in references(si_config()):
         folder, name = reference.split("/")
         file = f"results/{name}.parquet" if folder == "results" else f"results/{folder}/{name}.parquet"
         # Entries of the config, and scenes, have names of the user's choice.

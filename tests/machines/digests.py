@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT), str(ROOT / "scripts"), str(ROOT / "tests"), str(ROOT / "tests/calibration")]
 
 import pandas as pd  # noqa: E402
-from project import read_config  # noqa: E402
+from project import si_config  # noqa: E402
 
 import conveyor  # noqa: E402
 from calibration.calibrate import calibrate  # noqa: E402
@@ -25,7 +25,7 @@ from pipeline import grid  # noqa: E402
 from test_inference import SETTINGS, measured  # noqa: E402
 from workflow.config.tables import TABLES  # noqa: E402
 
-CONFIG = read_config()
+CONFIG = si_config()
 
 
 def calibration():

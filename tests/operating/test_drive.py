@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
-from project import ROOT, read_config
+from project import ROOT, si_config
 
 from operating import drive, drive_page, parts, transit
 from pipeline import pareto
 from workflow.config.tables import TABLES
 
-SETTINGS = {**TABLES["operating/drive_front"](read_config()), "starts": 24, "longest": 2.0}
+SETTINGS = {**TABLES["operating/drive_front"](si_config()), "starts": 24, "longest": 2.0}
 TEMPLATE = (ROOT / "workflow/templates/drive.md").read_text()
 PAPER = [50.0, math.radians(12.0), 0.0]
 

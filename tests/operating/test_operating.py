@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
-from project import ROOT, read_config
+from project import ROOT, si_config
 
 from conveyor import Columns, Conveyor, Start, classify, conveyor_motion, ensemble, parameter_table, simulate
 from operating import advice, chart, parts, regimes, shares, throws, transit
@@ -17,7 +17,7 @@ from workflow.config.tables import TABLES
 
 TEMPLATE = (ROOT / "workflow/templates/operating_chart.md").read_text()
 BOX = {
-    **read_config("operating")["operating"],
+    **si_config()["operating"],
     "starts": 64,
     "settling": 2000,
     "model": {},
@@ -358,9 +358,9 @@ def advised(**worst: float) -> list[pd.DataFrame]:
     return [rows, advice_rows, pd.DataFrame(changes).assign(gain_stderr=0.032, widening_stderr=0.01, velocity_05=0.03)]
 
 
-def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame]) -> str:
+def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame], assumed: tuple[str, ...] = ()) -> str:
     rows, advice_rows, changes = tables
-    return chart.make(TEMPLATE, rows, shares_table, intervals_of(shares_table), advice_rows, changes)
+    return chart.make(TEMPLATE, rows, shares_table, intervals_of(shares_table), advice_rows, changes, assumed)
 
 
 def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
@@ -398,6 +398,12 @@ def test_the_page_begins_with_the_advice(refined):
     assert "1.0 % have moved back" in page
     assert page.count("(now ") == 3
     assert "The parts differ: relative standard deviations are 15 % of friction." in page
+    assert "Assumed" not in page
+    assumed = page_of(refined, advised(), ("friction", "mass"))
+    told = "Assumed, because `parts` in the config does not state them: friction (15 %) and mass (0 %)."
+    assert f"are 15 % of friction. {told} The recommendation" in " ".join(
+        assumed.replace("Both recommendations allow", "The recommendation").split()
+    )
 
 
 def test_the_page_says_that_riding_parts_have_no_impacts(refined):
@@ -532,7 +538,7 @@ def test_unknown_and_backward_velocities_give_less_advice():
 
 
 def test_advice_has_the_measures_of_its_amplitude_and_of_changed_conveyors():
-    settings = TABLES["operating/transit"](read_config()) | {"starts": 16, "longest": 1.0}
+    settings = TABLES["operating/transit"](si_config()) | {"starts": 16, "longest": 1.0}
     table = transit.measure(np.array([40.0, 80.0]), settings)
     table.attrs = settings
     shares_table = pd.DataFrame({"acceleration": [39.0, 39.0, 81.0], "state": ["first", "second", "chaos"]})
@@ -557,7 +563,7 @@ def test_advice_has_the_measures_of_its_amplitude_and_of_changed_conveyors():
 
 def test_changes_are_for_the_same_calibrated_parts():
     """A change that changes nothing leaves velocity and spread as they are."""
-    settings = TABLES["operating/transit"](read_config()) | {"starts": 16, "longest": 1.0}
+    settings = TABLES["operating/transit"](si_config()) | {"starts": 16, "longest": 1.0}
     samples = pd.DataFrame({"friction": settings["model"]["friction"] * np.array([0.5, 1.0, 2.0])})
     calibration = samples, pd.DataFrame({"parameter": ["friction"], "best": [settings["model"]["friction"]]})
     own = parts.with_calibration(settings, *calibration)
@@ -573,7 +579,7 @@ def test_static_friction_keeps_its_ratio_and_values_out_of_range_are_left_out():
     model = {"friction": 0.1, "static_friction": 0.2}
     assert advice.with_parameter(model, "friction", 0.15)["static_friction"] == pytest.approx(0.3)
     assert advice.with_parameter({"friction": 0.15}, "friction", 0.2) == {"friction": 0.2}
-    settings = TABLES["operating/transit"](read_config()) | {"starts": 8, "longest": 0.2}
+    settings = TABLES["operating/transit"](si_config()) | {"starts": 8, "longest": 0.2}
     settings["model"] = settings["model"] | {"friction": 0.01}
     raised = settings | {"model": settings["model"] | {"friction": 0.03}}
     (change,) = advice.changes_at(40.0, settings, {"friction": 0.02})

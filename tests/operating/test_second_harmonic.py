@@ -3,13 +3,13 @@
 import numpy as np
 import pandas as pd
 import pytest
-from project import ROOT, read_config
+from project import ROOT, si_config
 
 from docs import second_harmonic_page
 from operating import drive, second_harmonic
 from workflow.config.tables import TABLES
 
-SETTINGS = TABLES["operating/second_harmonic"](read_config())
+SETTINGS = TABLES["operating/second_harmonic"](si_config())
 TEMPLATE = (ROOT / "workflow/templates/second_harmonic.md").read_text()
 BEST = [50.0, 0.4, 0.2]
 

@@ -5,15 +5,15 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
-from project import read_config
+from project import si_config
 
 from conveyor import Start, simulate
 from conveyor.solver.model import Conveyor
 from operating import track
 
 SETTINGS = {
-    **{key: value for key, value in read_config("operating")["operating"].items() if key != "resolution"},
-    **read_config("operating")["track"],
+    **{key: value for key, value in si_config()["operating"].items() if key != "resolution"},
+    **si_config()["track"],
     "settling": 2000,
     "model": {"friction": 0.15},
 }

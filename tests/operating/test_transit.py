@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
-from project import read_config
+from project import si_config
 
 from conveyor import (
     Columns,
@@ -21,7 +21,7 @@ from operating import drift, parts, regimes, transit
 from pipeline.rule_log import JobError
 from workflow.config.tables import TABLES
 
-SETTINGS = TABLES["operating/transit"](read_config()) | {"starts": 24, "longest": 5.0}
+SETTINGS = TABLES["operating/transit"](si_config()) | {"starts": 24, "longest": 5.0}
 EQUAL = dict.fromkeys(parts.COLUMNS, 0.0) | {"seed": 2}
 
 
@@ -204,7 +204,7 @@ def test_amplitudes_of_a_regime():
 def test_drift_predicts_the_spread_and_tracks_with_coexisting_motions_keep_theirs(monkeypatch):
     for name, value in (("LENGTHS", (0.25, 1.0)), ("AMPLITUDES", 1), ("OF_EACH_REGIME", 1)):
         monkeypatch.setattr(drift, name, value)
-    settings = TABLES["operating/drift"](read_config()) | {"starts": 64, "effort": 0.4}
+    settings = TABLES["operating/drift"](si_config()) | {"starts": 64, "effort": 0.4}
     found = drift.make(REGIMES, settings | {"longest": 10.0})
     (row,) = found["drift"].to_dict("records")
     assert row["status"] == "ok"
@@ -221,7 +221,7 @@ def test_drift_predicts_the_spread_and_tracks_with_coexisting_motions_keep_their
 
 
 def test_without_chaos_and_coexisting_motions_both_tables_are_empty():
-    settings = TABLES["operating/drift"](read_config())
+    settings = TABLES["operating/drift"](si_config())
     found = drift.make(REGIMES[REGIMES.regime == regimes.ONE], settings)
     for name, table in found.items():
         assert len(table) == 0

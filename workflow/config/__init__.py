@@ -10,6 +10,7 @@ from .entries import MEASURED_FILES, by_methods, with_tighter
 from .errors import ConfigError, type_problems
 from .files import merge, name_lines, read_all
 from .model import MODEL, is_same_model
+from .scales import to_si
 
 __all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
 
@@ -19,14 +20,15 @@ class Loaded(NamedTuple):
 
     config: dict  # canonical, with the tables of all methods and of tighter tolerances
     is_paper: bool  # whether the model is the paper's, so that its claims, remarks and marks apply
+    assumed: list[str]  # differences of parts that no overlay states
 
 
 def canonical(config: dict) -> dict:
-    """A valid config in its one form: keys in the order of the model, numbers in the types of the model.
+    """A valid config in its one form: SI units, keys in the order of the model, numbers in the types of the model.
 
     The entries of a section and the axes of an entry keep their order, which has a meaning.
     """
-    return MODEL.validate_python(config)
+    return MODEL.validate_python(to_si(MODEL.validate_python(config)))
 
 
 def name_measurements(config: dict, files: Sequence[str | Path], contents: list[dict]) -> None:
@@ -64,4 +66,6 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
         if key not in whole[section]:
             whole["figures_on_request"].pop(section, None)
     typed = canonical(whole)
-    return Loaded(with_tighter(by_methods(typed)), is_same_model(typed["model"], paper["model"]))
+    stated = merge(*overlays, config).get("parts", {})
+    assumed = [name for name in paper["parts"] if name not in (*stated, "seed")]
+    return Loaded(with_tighter(by_methods(typed)), is_same_model(typed["model"], paper["model"]), assumed)

@@ -30,6 +30,7 @@ from .entries import (
 from .errors import suggest_name, type_problems
 from .files import DEFAULT_FILES, ROOT, merge, read_all
 from .model import MODEL, is_same_model
+from .scales import faults_of_scales, to_si
 from .tables import NAMED, TABLES, entry_of, references, references_of
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
@@ -346,6 +347,11 @@ def problems(config: dict, defaults: dict | None = None, states_frequency: bool 
     if errors := type_problems(config):
         return errors
     typed, defaults = MODEL.validate_python(config), default_config() if defaults is None else defaults
+    if faults := list(faults_of_scales(typed, defaults)):
+        return faults
+    # Converted values have the limits of their SI units, and a partial axis has what the default gives.
+    if errors := type_problems(typed := to_si(typed)):
+        return errors
     lines = [line for check in CHECKS for line in check(typed, defaults)]
     lines += excitation(typed, defaults, states_frequency)
     return list(dict.fromkeys(lines))

@@ -127,6 +127,7 @@ rule operating_chart:
         benchmark_file("operating/chart")
     params:
         **stage("operating.chart"),
+        assumed=ASSUMED_PARTS,
     script:
         "../../scripts/make.py"
 
