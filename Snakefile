@@ -8,7 +8,7 @@ from snakemake.utils import min_version
 
 try:
     from workflow.config import ConfigError, load_config
-    from workflow.config.files import DEFAULT_FILES, ROOT
+    from workflow.config.files import DEFAULT_FILES, ROOT, USER_FILE
 except ImportError as error:
     names = list(accumulate((error.name or "").split("."), "{}.{}".format))
     if names[0] not in ("workflow", "scripts"):
@@ -26,16 +26,16 @@ except ImportError as error:
 min_version("9.27")
 
 
-# The conveyor and the solver. The defaults of each stage, config/STAGE.yaml, are added below.
-configfile: str(ROOT / "config/config.yaml")
+# The user's config. The defaults, config/defaults/, are added below.
+configfile: str(USER_FILE)
 
 
-# Overlays of the option --configfile. As a module of another workflow, whose Snakefile may also lie in a folder of this
-# project, all that counts is the config that the other workflow passes.
+# It and the files of the option --configfile are overlays. As a module of another workflow, whose Snakefile may also lie in a folder
+# of this project, all that counts is the config that the other workflow passes.
 OVERLAYS = []
 if Path(workflow.main_snakefile).resolve() in (ROOT / "Snakefile", ROOT / "workflow/Snakefile"):
-    OVERLAYS = [os.path.relpath(file) for file in workflow.overwrite_configfiles]
-    # Without the default values of `configfile:`, which load_config reads itself.
+    OVERLAYS = [os.path.relpath(file) for file in (USER_FILE, *workflow.overwrite_configfiles)]
+    # Values of the option --config alone, because load_config reads the files itself.
     config = dict(workflow.config_settings.config)
 
 try:

@@ -34,7 +34,7 @@ TINY = {
     "sweeps": {"amplitudes": COARSE, "on_plate": {"axes": {"acceleration": {"num": 3}}}},
     "estimates": {"phase": COARSE_PAIRS},
 }
-CONFIG_FILES = ("config", *STAGES)
+CONFIG_FILES = ("model", *STAGES)  # of config/defaults
 
 
 def read_config(*files: str) -> dict:
@@ -50,7 +50,12 @@ def si_config() -> dict:
 @cache
 def content_of(file: str) -> dict:
     """The content of a config file, read once: many tests read all of them."""
-    return yaml.safe_load((ROOT / f"config/{file}.yaml").read_text())
+    return yaml.safe_load(config_file(file).read_text())
+
+
+def config_file(name: str) -> Path:
+    """The path of a file of config/defaults, or of an overlay in config/."""
+    return ROOT / f"config/{'defaults/' if name in CONFIG_FILES else ''}{name}.yaml"
 
 
 def small_config() -> dict:
@@ -197,6 +202,6 @@ def copy_project(folder: Path) -> Path:
         else:
             shutil.copy2(source, folder / part, follow_symlinks=False)
     for file in CONFIG_FILES[1:]:
-        (folder / f"config/{file}.yaml").write_text("{}")
-    (folder / "config/config.yaml").write_text(yaml.safe_dump(small_config(), sort_keys=False))
+        (folder / f"config/defaults/{file}.yaml").write_text("{}")
+    (folder / "config/defaults/model.yaml").write_text(yaml.safe_dump(small_config(), sort_keys=False))
     return folder

@@ -26,7 +26,7 @@ PROSE = [
 ]
 KEPT = ("README.md", "metadata.yaml", "codecheck.yml")
 FIGURES = read_config()["figures"]
-CONFIG = [str(file) for file in sorted((ROOT / "config").glob("*.yaml")) if file.stem != "reduced"]
+CONFIG = [str(file) for file in sorted((ROOT / "config/defaults").glob("*.yaml"))]
 
 # -- no result is typed ------------------------------------------------------------------------------------------------
 

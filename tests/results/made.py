@@ -19,4 +19,4 @@ def entries() -> dict[str, dict]:
     """The entries of the figures by their names."""
     if "CONVEYOR_FIGURES" in os.environ:
         return json.loads(os.environ["CONVEYOR_FIGURES"])
-    return yaml.safe_load((ROOT / "config/figures.yaml").read_text(encoding="utf-8"))["figures"]
+    return yaml.safe_load((ROOT / "config/defaults/figures.yaml").read_text(encoding="utf-8"))["figures"]

@@ -8,7 +8,17 @@ import sys
 import pandas as pd
 import pytest
 import yaml
-from project import CONFIG_FILES, ROOT, Project, copy_project, merged, read_config
+from project import (
+    CONFIG_FILES,
+    IN_PROCESS_OPTIONS,
+    ROOT,
+    Project,
+    call_snakemake,
+    config_file,
+    copy_project,
+    merged,
+    read_config,
+)
 
 from workflow.config import ConfigError, canonical, load_config
 from workflow.config.entries import METHOD_SECTIONS, by_methods, resolve
@@ -63,9 +73,9 @@ def test_json_is_a_config(tmp_path):
     assert read(file) == {"model": {"mass": 0.001, "z0": 0}, "sweeps": {}}
 
 
-@pytest.mark.parametrize("file", [*CONFIG_FILES, "reduced"])
+@pytest.mark.parametrize("file", [*CONFIG_FILES, "config", "reduced"])
 def test_files_of_the_project_are_valid(file):
-    assert read(ROOT / f"config/{file}.yaml") == read_config(file)
+    assert read(config_file(file)) == read_config(file)
 
 
 def test_keys_are_in_the_order_of_the_first_file(tmp_path):
@@ -101,7 +111,7 @@ def test_a_config_without_files_is_the_overlay_of_a_module(tmp_path):
 
 def test_texts_of_numbers_are_numbers():
     """Other workflows read their config as YAML 1.1, in which 1e-8 is a text."""
-    overlay = {"prefix": "", "solver": {"tolerance": "1e-8", "settling": "2e4"}, "transit": {"parts": "32"}}
+    overlay = {"prefix": "mine", "solver": {"tolerance": "1e-8", "settling": "2e4"}, "transit": {"parts": "32"}}
     overlay |= {"model": {"z0": "1e-4", "damping": "0.3"}, "sweeps": {"one": {"axes": {"z0": ["0", "conveyor"]}}}}
     config = load_config(DEFAULT_FILES, [], overlay).config
     assert config["solver"]["tolerance"] == 1e-8
@@ -224,3 +234,45 @@ def test_overlays_can_be_checked_without_snakemake(tmp_path):
     file.write_text("prefix: mine\nmodel: {damping: 0.2}")
     run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 0 and "valid" in run.stdout
+
+
+def test_the_whole_config_is_shown_with_origins(tmp_path):
+    """Also of values that YAML repeats through an anchor."""
+    file = tmp_path / "mine.yaml"
+    file.write_text("prefix: mine\nsweeps:\n  heights:\n    axes: {z0: {num: 41}}\n  one: {axes: {z0: [0, 1e-4]}}\n")
+    show = [sys.executable, "-m", "workflow.config", "--show", str(file)]
+    lines = subprocess.run(show, cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
+    shown = dict(line.split(" = ", 1) for line in lines)
+    assert shown["prefix"] == f'"mine"    # {file}:1'
+    assert shown["sweeps.heights.axes.z0.num"] == f"41    # {file}:4"
+    assert shown["sweeps.one.axes.z0"] == f"[0.0, 0.0001]    # {file}:5"
+    assert re.fullmatch(r"0\.0004    # config/defaults/sweeps\.yaml:\d+", shown["sweeps.heights.axes.z0.stop"])
+    assert re.fullmatch(r"400    # config/defaults/sweeps\.yaml:\d+", shown["sweeps.map_height_chaos.axes.psi0.num"])
+    assert {key.split(".")[0] for key in shown} == set(read_config())
+
+
+def test_the_config_of_the_user_is_an_overlay(tmp_path):
+    """It lies below the files of --configfile and the values of --config."""
+    folder = copy_project(tmp_path)
+    (folder / "config/config.yaml").write_text("prefix: mine\nsweeps: {few: {axes: {z0: [0]}}}\n")
+    run = call_snakemake("--dry-run", "results/mine/sweeps/few.parquet", folder=folder)
+    assert run.returncode == 0, run.stdout
+    run = call_snakemake("--dry-run", "results/other/sweeps/few.parquet", "--config", "prefix=other", folder=folder)
+    assert run.returncode == 0, run.stdout
+
+
+def test_a_deployed_config_works_as_a_module(tmp_path):
+    """As snakedeploy writes it: config: config, with the user's file copied, which Snakemake reads as YAML 1.1."""
+    (tmp_path / "config").mkdir()
+    text = (ROOT / "config/config.yaml").read_text()
+    changed = (
+        '"sweeps": {few: {axes: {z0: ["0.0", 1e-4]}, duration: "0.02", needs: vertical}}\nsolver: {tolerance: 1e-8}\n'
+    )
+    (tmp_path / "config/config.yaml").write_text(text + changed)
+    (tmp_path / "Snakefile").write_text(
+        f'configfile: "config/config.yaml"\nmodule conveyor:\n    snakefile: "{ROOT / "Snakefile"}"\n'
+        "    config: config\nuse rule * from conveyor\n"
+    )
+    run = call_snakemake(*IN_PROCESS_OPTIONS, "results/sweeps/few.parquet", folder=tmp_path)
+    assert run.returncode == 0, run.stdout
+    assert pd.read_parquet(tmp_path / "results/sweeps/few.parquet").attrs["tolerance"] == 1e-8

@@ -28,7 +28,7 @@ def test_every_package_has_a_place_among_the_layers():
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_a_stage_has_one_name_everywhere(stage):
-    for file in (f"config/{stage}.yaml", f"workflow/rules/{stage}.smk", f"scripts/{stage}/__init__.py"):
+    for file in (f"config/defaults/{stage}.yaml", f"workflow/rules/{stage}.smk", f"scripts/{stage}/__init__.py"):
         assert (ROOT / file).is_file(), file
     assert list((ROOT / f"tests/{stage}").glob("test_*.py"))
 

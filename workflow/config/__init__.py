@@ -19,6 +19,7 @@ class Loaded(NamedTuple):
     """A config with everything that the rules need to know about it."""
 
     config: dict  # canonical, with the tables of all methods and of tighter tolerances
+    merged: dict  # canonical, as files and command line give it
     is_paper: bool  # whether the model is the paper's, so that its claims, remarks and marks apply
     assumed: list[str]  # differences of parts that no overlay states
 
@@ -65,7 +66,7 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
     for section, key in MEASURED_FILES:
         if key not in whole[section]:
             whole["figures_on_request"].pop(section, None)
-    typed = canonical(whole)
+    merged = canonical(whole)
     stated = merge(*overlays, config).get("parts", {})
     assumed = [name for name in paper["parts"] if name not in (*stated, "seed")]
-    return Loaded(with_tighter(by_methods(typed)), is_same_model(typed["model"], paper["model"]), assumed)
+    return Loaded(with_tighter(by_methods(merged)), merged, is_same_model(merged["model"], paper["model"]), assumed)

@@ -17,7 +17,8 @@ from .errors import ConfigError, format_key
 from .stages import STAGES
 
 ROOT = Path(__file__).resolve().parents[2]
-DEFAULT_FILES = tuple(ROOT / f"config/{name}.yaml" for name in ("config", *STAGES))
+DEFAULT_FILES = tuple(ROOT / f"config/defaults/{name}.yaml" for name in ("model", *STAGES))
+USER_FILE = ROOT / "config/config.yaml"  # an overlay of the defaults, below the files of --configfile
 
 
 def read(file: str | Path) -> dict:
@@ -38,11 +39,7 @@ def read(file: str | Path) -> dict:
 
 
 def find_lines(file: str | Path) -> dict[tuple[str | int, ...], str]:
-    """FILE:LINE of the keys and list items of a config file, by their paths.
-
-    A value that YAML repeats through an anchor has the lines of its first place only.
-    """
-    seen = set()
+    """FILE:LINE of the keys and list items of a config file, by their paths."""
 
     def lines_below(node: Node, path: tuple) -> Iterator[tuple[tuple, str]]:
         pairs = node.value if isinstance(node, MappingNode) else ()
@@ -50,10 +47,9 @@ def find_lines(file: str | Path) -> dict[tuple[str | int, ...], str]:
         named = itertools.chain(
             ((key.value, key, value) for key, value in pairs), ((place, item, item) for place, item in items)
         )
-        for part, marked, value in named if id(node) not in seen else ():
+        for part, marked, value in named:
             yield (*path, part), f"{file}:{marked.start_mark.line + 1}"
             yield from lines_below(value, (*path, part))
-        seen.add(id(node))
 
     return dict(lines_below(YAML(typ="safe").compose(Path(file).read_text(encoding="utf-8")), ()))
 

@@ -228,7 +228,9 @@ PAPER_FIGURES = [figure for figure in config["figures"] if re.fullmatch(r"fig\d+
 # Figures that this config cannot make, with the reasons. A figure of a measured file has the name of the section that names this file.
 NO_FIGURES = {section: reason for section, reason in NOT_MEASURED.items() if not MEASURED[section]}
 if config["model"].get("harmonics"):
-    NO_FIGURES["sensitivity"] = "its bifurcations are solved in dimensionless groups, which a plate with harmonics has not"
+    NO_FIGURES["sensitivity"] = (
+        "its bifurcations are solved in dimensionless groups, which a plate with harmonics has not"
+    )
 
 
 def settings_of_figure(figure):

@@ -1,1 +1,1 @@
-"""One module for each figure; config/figures.yaml names the arguments of its function `plot`."""
+"""One module for each figure; config/defaults/figures.yaml names the arguments of its function `plot`."""
