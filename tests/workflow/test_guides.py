@@ -2,6 +2,7 @@
 
 import re
 import shlex
+import subprocess
 import tomllib
 
 import numpy as np
@@ -141,6 +142,21 @@ def test_the_other_snakefile_plans_the_same(built):
     ]
     stats = [sorted(run.stdout.split("Job stats:")[1].split("\n\n")[0].splitlines()) for run in plans]
     assert stats[0] == stats[1]
+
+
+def test_breakpoint_works_in_a_job(edited):
+    """As the guide says: the job keeps the terminal of Snakemake."""
+    project = edited("scripts/figures/plots/fig03.py", "    figure = ", "    breakpoint()\n    figure = ")
+    target = ("--cores", "1", "--force", "figures/fig03.png", *project.configfile())
+    run = project.given_to(subprocess.run, *target, input="p 40 + 2\nc\n")
+    assert run.returncode == 0, run.stdout
+    assert "(Pdb) 42" in run.stdout
+
+
+def test_dry_runs_say_why_a_job_runs(built):
+    """As README and guides promise; the profile must not hide it."""
+    run = built.snakemake("--dry-run", "--forcerun", "plot", "--", "figures/fig03.pdf")
+    assert "reason: Forced execution" in run.stdout
 
 
 def test_a_stage_runs_without_snakemake(built, monkeypatch):
