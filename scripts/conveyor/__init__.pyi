@@ -86,7 +86,6 @@ from .analysis.bifurcations.bifurcation_curves import (
 from .analysis.chaos.lyapunov import lyapunov_spectrum, lyapunov_spectrum_on_attractors
 from .analysis.chaos.pairs import finite_difference_exponent, renormalised_exponent
 from .analysis.chaos.random_walk import NO_FLUCTUATIONS, RANDOM_WALK_STATUS, random_walk, relative_spread
-from .analysis.chaos.zero_one import zero_one
 
 # Dimensions
 from .analysis.fractals.box_counting import box_dimension, box_dimension_of_paper

@@ -3,12 +3,12 @@
 import numpy as np
 import pandas as pd
 
-from conveyor import lyapunov_spectrum_on_attractors
-from orbits.attractor_states import parameters_on_attractors
-from pipeline import fields
+from conveyor import lyapunov_spectrum_on_attractors, start_at
+from pipeline import fields, grid
 
 # Excitation cycles in a block, and blocks, from whose means the standard error is computed.
 CYCLES, BLOCKS = 100, 20
+SIGNIFICANT = 3.0  # standard errors from zero of an exponent whose sign is certain
 TABLES = {
     "spectrum": (
         fields.ORBIT[1],
@@ -20,6 +20,14 @@ TABLES = {
         fields.text("status", "ok, or why there is no result"),
     ),
 }
+
+
+def parameters_on_attractors(strobes: pd.DataFrame, settings: dict) -> tuple[pd.DataFrame, np.ndarray]:
+    """The last recorded state of each amplitude and branch, and parameters with these states, shape (n,)."""
+    last = strobes[strobes.cycle == strobes.cycle.max()].reset_index(drop=True)
+    parameters = np.full(len(last), grid.row_of(settings["model"]))
+    parameters["acceleration"] = last.acceleration
+    return last, start_at(parameters, last[["delta", "v"]].to_numpy(), settings["tolerance"])
 
 
 def make(

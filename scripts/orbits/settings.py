@@ -105,6 +105,6 @@ def exponents_settings(config: dict) -> dict:
 TABLE_SETTINGS = {
     **dict.fromkeys(("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"), branches_settings),
     **dict.fromkeys((f"orbits/{name}" for name in CERTIFIED_TABLES), certified_settings),
-    **dict.fromkeys(("attractors/strobes", "lyapunov/witnesses"), strobes_settings),
+    "attractors/strobes": strobes_settings,
     "lyapunov/spectrum": exponents_settings,
 }

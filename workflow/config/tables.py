@@ -65,7 +65,7 @@ def budgeted_tables(config: dict) -> dict[str, list[str]]:
     def is_budgeted(reference: str) -> bool:
         is_converged = entry_of(config, reference).get("method", "event") == "event"
         is_covered = reference.split("/")[0] in BUDGETED
-        return is_covered and is_converged and reference != "lyapunov/witnesses"
+        return is_covered and is_converged
 
     return {
         figure: [reference for reference in dict.fromkeys(entry["tables"].values()) if is_budgeted(reference)]

@@ -1,4 +1,4 @@
-# Periodic orbits, attractors over the amplitude, their Lyapunov exponents, tests for chaos, and proofs.
+# Periodic orbits, attractors over the amplitude, their Lyapunov exponents, and proofs.
 
 
 rule estimates:
@@ -84,22 +84,5 @@ rule lyapunov:
     threads: THREADS
     params:
         **stage("orbits.exponents", "lyapunov/spectrum"),
-    script:
-        "../../scripts/make.py"
-
-
-rule witnesses:
-    """Three tests for chaos on each attractor."""
-    input:
-        **tables_of("attractors/strobes", "lyapunov/spectrum"),
-    output:
-        **tables_of("lyapunov/witnesses"),
-    log:
-        log_file("lyapunov/witnesses"),
-    benchmark:
-        benchmark_file("lyapunov/witnesses")
-    threads: THREADS
-    params:
-        **stage("orbits.witnesses", "lyapunov/witnesses"),
     script:
         "../../scripts/make.py"

@@ -4,7 +4,7 @@ import pandas as pd
 
 from claims.about_states import find_runs, format_runs
 from orbits.branches import MOST_ORBITS
-from orbits.witnesses import SIGNIFICANT
+from orbits.exponents import SIGNIFICANT
 
 
 def is_chaotic(spectrum: pd.DataFrame) -> pd.Series:

@@ -1,1 +1,1 @@
-"""Measures of chaos: Lyapunov exponents and the 0-1 test."""
+"""Measures of chaos: Lyapunov exponents and random walks."""
