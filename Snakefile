@@ -38,6 +38,11 @@ if Path(workflow.main_snakefile).resolve() in (ROOT / "Snakefile", ROOT / "workf
     # Values of the option --config alone, because load_config reads the files itself.
     config = dict(workflow.config_settings.config)
 
+if set("{}") & set(os.path.relpath(ROOT)):
+    raise WorkflowError(
+        f"{os.path.relpath(ROOT)} has braces, which Snakemake takes for a wildcard; rename the folder, or work inside it"
+    )
+
 try:
     loaded = load_config(DEFAULT_FILES, OVERLAYS, config)
 except ConfigError as error:

@@ -276,3 +276,24 @@ def test_a_deployed_config_works_as_a_module(tmp_path):
     run = call_snakemake(*IN_PROCESS_OPTIONS, "results/sweeps/few.parquet", folder=tmp_path)
     assert run.returncode == 0, run.stdout
     assert pd.read_parquet(tmp_path / "results/sweeps/few.parquet").attrs["tolerance"] == 1e-8
+
+
+def test_braces_in_the_name_of_a_measured_file_or_its_folder_are_refused(project, tmp_path):
+    folder = tmp_path / "a{x}"
+    folder.mkdir()
+    (folder / "mine.csv").write_bytes((ROOT / "config/examples/measured.csv").read_bytes())
+    (folder / "mine.yaml").write_text("prefix: mine\ncalibration: {measurements: mine.csv}\n")
+    run = project.called("--dry-run", "results/mine/calibration.md", "--configfile", str(folder / "mine.yaml"))
+    assert_refused(run, "a{x}/mine.csv' has braces, which Snakemake takes for a wildcard; rename the file or folder")
+
+
+def test_braces_in_the_name_of_the_working_directory(tmp_path):
+    """A project in such a folder works there; from elsewhere, the folder is named."""
+    folder = tmp_path / "b{x}"
+    folder.mkdir()
+    copy_project(folder)
+    run = call_snakemake("--dry-run", "figures/fig22.pdf", "results/drive.md", folder=folder)
+    assert run.returncode == 0, run.stdout
+    run = call_snakemake("--dry-run", "figures/fig22.pdf", "--snakefile", str(folder / "Snakefile"), folder=tmp_path)
+    assert run.returncode != 0
+    assert "b{x} has braces, which Snakemake takes for a wildcard" in run.stdout

@@ -59,6 +59,13 @@ def prefix(config: dict, defaults: dict) -> Iterator[str]:
             yield f"{section}.{key} needs a folder for its results; give the config a prefix"
 
 
+def file_names(config: dict, defaults: dict) -> Iterator[str]:
+    for section, key in MEASURED_FILES:
+        if set("{}") & set(path := config[section].get(key, "")):
+            remedy = "rename the file or folder"
+            yield f"{section}.{key} = {path!r} has braces, which Snakemake takes for a wildcard; {remedy}"
+
+
 def methods(config: dict, defaults: dict) -> Iterator[str]:
     """Settings of methods that exclude each other, and entries that make the same table."""
     for section in METHOD_SECTIONS:
@@ -328,7 +335,7 @@ def precision(config: dict, defaults: dict) -> Iterator[str]:
 
 
 CHECKS = (
-    *(prefix, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
+    *(prefix, file_names, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
     *(unknown_references, figures, unused_keys, calibration),
     *(precision, drive),
 )
