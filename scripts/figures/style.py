@@ -33,7 +33,7 @@ SECOND_ESTIMATE = "#CC79A7"  # next to CONVERGED; not green, which means chaos
 PLATE = "#555555"
 AMPLITUDE = "acceleration amplitude $\\hat{a}$ in m/s²"
 THROW_NUMBER = "throw number $\\Gamma = a_z / (g\\,\\cos\\alpha)$"
-VELOCITY = "mean feeding velocity in m/s"
+VELOCITY = "mean feeding velocity in cm/s"
 # Colour and name of every method that the solver is compared with.
 METHODS = {
     "event": (CONVERGED, "this solver"),
@@ -103,6 +103,12 @@ def method_panels(figure: Figure, tables: dict[str, pd.DataFrame], xlabel: str, 
         axes.set_xlabel(xlabel)
     panels[0].set_ylabel(ylabel)
     return list(panels)
+
+
+def velocity_axis(axis: Axis) -> None:
+    """Label an axis of mean feeding velocities (m/s) in cm/s, the unit of the paper's text."""
+    axis.set_label_text(VELOCITY)
+    axis.set_major_formatter(lambda value, _: f"{100.0 * value:.6g}")
 
 
 def from_zero(*panels: Axes) -> None:

@@ -4,7 +4,12 @@ import pandas as pd
 
 from claims.about_chaos import positive_onset
 from claims.about_proofs import lowest_fold
+from figures.caption_numbers.fig22 import describe_exceptions
 
 
-def numbers(*, bifurcations: pd.DataFrame, estimate: pd.DataFrame) -> dict[str, float]:
-    return {"fold": lowest_fold(bifurcations), "euler_positive": positive_onset(estimate)}
+def numbers(*, bifurcations: pd.DataFrame, estimate: pd.DataFrame) -> dict[str, float | str]:
+    return {
+        "fold": lowest_fold(bifurcations),
+        "euler_positive": positive_onset(estimate),
+        "exceptions": describe_exceptions(estimate),
+    }

@@ -80,6 +80,6 @@ def plot(*, shares: pd.DataFrame) -> Figure:
         handles = share_handles(shares)
         figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), columnspacing=1.2)
     axes.set_xlabel(style.AMPLITUDE)
-    axes.set_ylabel(style.VELOCITY)
+    style.velocity_axis(axes.yaxis)
     throw_axis(axes, shares)
     return figure

@@ -46,7 +46,7 @@ def draw_velocities(axes: Axes, fit: pd.DataFrame, prediction: pd.DataFrame) -> 
             axes.errorbar(own.acceleration, own.velocity, yerr=2.0 * own.sd, elinewidth=0.6, **options, **look)
     axes.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     axes.set_xlabel(style.AMPLITUDE)
-    axes.set_ylabel(style.VELOCITY)
+    style.velocity_axis(axes.yaxis)
     axes.legend(loc="best")
 
 

@@ -21,7 +21,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, critical_acceleration:
     if critical_acceleration is not None:
         style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
     axes.set_xlabel(style.AMPLITUDE)
-    axes.set_ylabel(style.VELOCITY)
+    style.velocity_axis(axes.yaxis)
     style.from_zero(axes)
     style.legend_above(figure, axes, ncols=2)
     return figure

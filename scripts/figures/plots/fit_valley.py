@@ -70,7 +70,7 @@ def draw_parameters(axes: Axes, fit: pd.DataFrame, flat: pd.DataFrame) -> None:
 
 
 def draw_heights(axes: Axes, converged: pd.DataFrame, flat: pd.DataFrame, acceleration: list[float]) -> None:
-    """Draw some fits of `flat` over the amplitudes of the fit (m/s²), and the critical heights."""
+    """Draw some fits of `flat` over the amplitudes of the fit (m/s²), and the critical heights there."""
     amplitudes = np.linspace(*acceleration, 200)
     places = np.linspace(0, len(flat) - 1, CURVES).astype(int)
     for place, shade in zip(places, np.linspace(0.0, 0.9, CURVES), strict=True):
@@ -78,7 +78,7 @@ def draw_heights(axes: Axes, converged: pd.DataFrame, flat: pd.DataFrame, accele
         curve = critical_height(amplitudes, Hyperbola(row.A, row.B, row.C))
         colour = colormaps["viridis"](shade)
         axes.plot(amplitudes, 1e3 * curve, color=colour, linewidth=0.6, label=f"$B = {row.B:.1f}$ m/s²")
-    edge = converged[converged.is_critical]
+    edge = converged[converged.is_critical & converged.acceleration.between(*acceleration)]
     style.dots(axes, edge.acceleration, 1e3 * edge.z0, "black", 2.0, label="converged solution")
     axes.set_xlabel(style.AMPLITUDE)
     axes.set_ylabel("critical initial height $z_0$ in mm")

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from excitation.clean_drive import CHAOS, MEASURES, changes_of
+from excitation.clean_drive import MEASURES, changes_of
 from figures import style
 
 COLOURS = {2: "#0072B2", 3: "#D55E00"}
@@ -49,7 +49,7 @@ def plot(*, drives: pd.DataFrame) -> Figure:
         axes.axhline(0.0, color="black", linewidth=0.4, zorder=0)
         draw_changes(axes, own)
         if row == 0:
-            axes.set_title(f"{place.acceleration:g} m/s²{', chaos' if place.regime == CHAOS else ''}")
+            axes.set_title(f"{place.acceleration:g} m/s², {place.regime}")
         if column == 0:
             axes.set_ylabel(f"change of\n{label} in %")
     panels[0][0].set_ylim(np.array([-1.1, 1.1]) * 100.0 * changes.change.abs().max())

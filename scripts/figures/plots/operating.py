@@ -53,7 +53,7 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
         velocities.plot(amplitudes, slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion")
     velocities.plot(amplitudes, throw_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK)
     velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
-    velocities.set_ylabel(style.VELOCITY)
+    style.velocity_axis(velocities.yaxis)
 
     low, high = (100.0 * (best.best_share + side * best.stderr).clip(0.0, 1.0) for side in (-2.0, 2.0))
     share.fill_between(best.acceleration, low, high, color="0.75", linewidth=0.0, step="mid")

@@ -8,6 +8,11 @@ from claims.about_proofs import lowest_fold
 from figures import style
 
 SHADE = "0.93"
+# Colours of the exponents of the attractors that are followed over the amplitude; the upper branch hides the lower one.
+BRANCHES = {
+    "down": ("#56B4E9", "converged, decreasing $\\hat{a}$"),
+    "up": (style.CONVERGED, "converged, increasing $\\hat{a}$"),
+}
 LOWEST = -30.0  # 1/s, end of the axis of the exponents
 
 
@@ -23,9 +28,9 @@ def draw_attractors(axes: Axes, strobes: pd.DataFrame) -> None:
 def draw_exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -> None:
     """Draw the Lyapunov exponents of the attractors swept up and down, and the paper's estimate."""
     axes.axhline(0.0, color="black", linewidth=0.6)
-    for branch, rows in spectrum.groupby("branch", sort=False):
-        label = "converged" if branch == "up" else None
-        axes.plot(rows.acceleration, rows.lambda_1, color=style.CONVERGED, linewidth=0.6, label=label)
+    for branch, (colour, label) in BRANCHES.items():
+        rows = spectrum[spectrum.branch == branch]
+        axes.plot(rows.acceleration, rows.lambda_1, color=colour, linewidth=0.6, label=label)
     look = {"color": style.EULER, "linewidth": 0.9, "label": "estimate of Fig. 22"}
     axes.plot(estimate.acceleration, estimate["lambda"], **look)
     axes.set_ylabel("Lyapunov\nexponent in 1/s")

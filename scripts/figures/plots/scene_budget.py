@@ -50,7 +50,8 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     full = rows[rows.variant == "full model"]
     cost.plot(1e3 * full.seconds, full.place, **FULL)
     cheaper = (rows.variant != "full model") & (rows.tolerance.notna() | rows.variant.isin(VARIANTS))
-    for row in rows[cheaper].itertuples():
+    # The chosen variant is drawn last, so that its own colour is inside the ring.
+    for row in rows[cheaper].sort_values("chosen", kind="stable").itertuples():
         marker, colour = marker_and_colour(row)
         look = {"color": colour, "markerfacecolor": "white" if row.visible else colour}
         for axes, x in ((cost, 1e3 * row.seconds), (seen, row.seen)):

@@ -24,7 +24,7 @@ def plot(*, sweep: pd.DataFrame, edge: pd.DataFrame) -> Figure:
             panels["velocity"].plot(curve.index, curve, label=label if state == "first" else None, **look)
         rows = edge[(edge.tension == mode) & edge.is_critical]
         panels["edge"].plot(rows.acceleration, 1e3 * rows.z0, **look)
-    panels["velocity"].set_ylabel(style.VELOCITY)
+    style.velocity_axis(panels["velocity"].yaxis)
     panels["velocity"].set_ylim(bottom=0.0)
     panels["velocity"].set_title("motions with the period of the excitation")
     panels["edge"].set_ylabel("critical initial height in mm")

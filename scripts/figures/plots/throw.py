@@ -34,7 +34,7 @@ def plot(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> Figure:
     for axes in panels[-1]:
         axes.set_xlabel(style.THROW_NUMBER)
     for axes in panels.flat:
-        axes.set_ylabel(style.VELOCITY)
+        style.velocity_axis(axes.yaxis)
     for axes in panels.flat[len(names) :]:
         axes.set_axis_off()
     handles = [Line2D([], [], **style.TEXTBOOK), *share_handles(throws)]

@@ -37,7 +37,7 @@ def plot(*, track: pd.DataFrame) -> Figure:
             style.note(axes, "parts slide down and accelerate", middle, ha="center", va="center")
     panels[0].set_ylabel("inclination $\\alpha$ in °")
     if states:
-        figure.colorbar(image, ax=list(panels), label=style.VELOCITY)
+        style.velocity_axis(figure.colorbar(image, ax=list(panels)).ax.yaxis)
     else:
         panels[0].set_ylim(*np.degrees([track.inclination.min(), track.inclination.max()]))
         known = "known " if (track.status == NOT_ALL_SETTLED).any() else ""
