@@ -15,6 +15,7 @@ from .reading import AXES, STANDARD_GRAVITY, UNITS, Recording, columns_entry, re
 
 ABSENT = 0.06  # of gravity: a mean below this is an offset of a sensor that removes gravity
 SIZE = 0.1  # relative deviation within which the mean counts as gravity; sensors have errors of some percent
+NEAR = 0.05  # relative deviation within which another unit explains the mean
 MOST_LEAN = 0.04  # rad, within which the direction of gravity fits; an offset of 0.04 g turns it by this much
 SURE = 3.0  # standard errors from which a deviation is one
 # What else the unit of a file may be, in m/s².
@@ -57,13 +58,14 @@ def size_fault(gravity: Gravity, unit: str) -> str | None:
     if not gravity.present or abs(gravity.size - 1.0) < SIZE:
         return None
     mean = gravity.size * STANDARD_GRAVITY / UNITS[unit]
-    fits = [name for name, scale in OTHER_UNITS.items() if abs(mean * scale / STANDARD_GRAVITY - 1.0) < 0.05]
+    deviations = {name: abs(mean * scale / STANDARD_GRAVITY - 1.0) for name, scale in OTHER_UNITS.items()}
+    nearest = min(deviations, key=lambda name: deviations[name])
     shown = f"has a mean of {mean:.4g} {unit}, {gravity.size:.3g} times gravity"
     factor = f"one g is {mean:.4g} in the file, so values times {STANDARD_GRAVITY / mean:.4g} would be m/s²"
-    if fits and fits[0] in UNITS:
-        return f"{shown}; its values are in {fits[0]}: set excitation.unit: {fits[0]} ({factor})"
-    if fits:
-        return f"{shown}; its values seem to be {fits[0]}: {factor}; export them in one of {', '.join(UNITS)}"
+    if deviations[nearest] < NEAR and nearest in UNITS:
+        return f"{shown}; its values are in {nearest}: set excitation.unit: {nearest} ({factor})"
+    if deviations[nearest] < NEAR:
+        return f"{shown}; its values seem to be {nearest}: {factor}; export them in one of {', '.join(UNITS)}"
     remedy = f"export the values in one of {', '.join(UNITS)}, and state it as excitation.unit"
     return f"{shown}, which no unit explains; {factor}. {remedy}, or check whether the sensor is tilted sideways"
 

@@ -21,6 +21,7 @@ LEAST_REPEATED = 3  # lines that repeat the one before, from which it may be no 
 WORSE = 1.3  # times the smallest residual variance, from which an interpretation is wrong
 BETTER = 0.98  # times the power beside the fundamental of the times as stamped, below which others are better
 FINE = 0.25  # of the mean interval: rounding by less is no sign of lost samples
+LEEWAY = 1.5  # of deviations from a straight line over the resolution, up to which times are rounded
 CLUSTER = 0.2  # width of a cluster of intervals, in units of the distance between two
 FEW_GAPS = 0.002  # share of the intervals, beside one; more are the pauses between buffers
 MOST_GAPS = 0.75  # share of the recording without samples, beyond which cycles cannot be counted across gaps
@@ -64,18 +65,18 @@ def last_decimal(time: np.ndarray) -> float:
 def even(time: np.ndarray) -> Even:
     """The straight line through times over the number of the sample; gaps take a whole number of samples."""
     intervals, is_gap = gaps_of(time)
-    is_gap = is_gap if np.count_nonzero(is_gap) <= 1 + FEW_GAPS * len(intervals) else np.zeros_like(is_gap)
+    if np.count_nonzero(is_gap) > 1 + FEW_GAPS * len(intervals) or not intervals[~is_gap].any():
+        is_gap = np.zeros_like(is_gap)
     steps = np.where(is_gap, np.maximum(np.round(intervals / intervals[~is_gap].mean()), 1.0), 1.0)
     index = np.concatenate([[0.0], np.cumsum(steps)])
     slope, start = np.polyfit(index - index.mean(), time, 1)
     fitted = start + slope * (index - index.mean())
     rest = time - fitted
     resolution, span = resolution_of(time), float(np.ptp(rest))
-    # Errors of one sign side by side have one cause, so runs of them count, not samples.
+    # Errors of one sign side by side have one cause, so runs of them count, not samples. The last decimal may hide any
+    # slow error.
     runs = 1 + np.count_nonzero(np.diff(rest > 0.0))
-    scatter = max(
-        float(rest.std()) * math.sqrt(12.0 / runs), resolution / math.sqrt(3.0) if span < 1e-6 * slope else 0.0
-    )
+    scatter = max(float(rest.std()) * math.sqrt(12.0 / runs), min(last_decimal(time), slope) / math.sqrt(3.0))
     return Even(fitted, span, resolution, scatter / float(np.ptp(time)))
 
 
@@ -114,7 +115,7 @@ def interpretations(recording: Recording) -> list[Recording]:
             found.append(one._replace(rate_error=rate_error))
             continue
         found.append(one._replace(resolution=last_decimal(one.time)))
-        sampling = ROUNDED if line.deviation <= 1.01 * line.resolution else EVEN
+        sampling = ROUNDED if line.deviation <= LEEWAY * line.resolution else EVEN
         spaced.append(one._replace(time=line.time, sampling=sampling, rate_error=rate_error))
     return found + spaced
 
