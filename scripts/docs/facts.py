@@ -72,6 +72,14 @@ def summarize_speed(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
     }
 
 
+def evenest_from(varied: pd.DataFrame) -> float | None:
+    """The lowest amplitude (m/s²) from which on parts travel more evenly than at every smaller one; None for none."""
+    spread = varied.sort_values("acceleration").set_index("acceleration").spread
+    later, before = spread[::-1].cummax()[::-1], spread.cummin().shift()
+    below = later.index[later < before]
+    return float(below.min()) if len(below) else None
+
+
 def summarize_transit(transit: pd.DataFrame, lengths: pd.DataFrame) -> dict[str, Any]:
     """Where identical parts differ most in their velocity, where varied parts differ least, and the track's length."""
     widest = lengths[lengths.regime == SEVERAL].sort_values(["spread", "length"]).acceleration.iloc[-1]
@@ -79,6 +87,7 @@ def summarize_transit(transit: pd.DataFrame, lengths: pd.DataFrame) -> dict[str,
     return {
         "uneven": identical.loc[(identical.acceleration - widest).abs().idxmin()].to_dict(),
         "even": varied.loc[varied.spread.idxmin()].to_dict(),
+        "evenest_from": evenest_from(varied),
         "track": transit.attrs["length"],
         "middle": ENDS[1] - ENDS[0],
         "differences": differences(transit.attrs)["spread"],

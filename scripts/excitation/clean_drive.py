@@ -103,19 +103,26 @@ def statement_of(table: pd.DataFrame) -> dict[str, float | bool]:
 
     Returns
     -------
-    the `share` of the harmonic, the largest change of the median in chaos, `chaos`, the change of the slowest 5 % that
-    the worst phase makes at the riding amplitude where it is smallest, `riding`, and where it is largest, `most`, and
-    whether chaos and riding keep their limits, `holds`
+    the `share` of the harmonic, the largest change of the median in chaos, `chaos`, and of the slowest 5 %,
+    `chaos_slowest`; the change of the slowest 5 % that the worst phase makes at the riding amplitude where it is
+    smallest, `riding`, and where it is largest, `most`, and both for the median, `riding_medians`; the `amplitudes` in
+    chaos (m/s²), the number of `phases`, the relative standard error of the median in chaos, `stderr`; and whether
+    chaos and riding keep their limits, `holds`
     """
     worst = largest_changes(table)
     worst = worst[worst.share == STATEMENT["share"]]
-    chaos = worst[(worst.regime == CHAOS) & (worst.measure == "velocity_50")].change.max()
-    riding = worst[(worst.regime == RIDING) & (worst.measure == "velocity_05")]
-    riding = riding.groupby("acceleration").change.max()
+    sizes = worst.groupby(["regime", "measure", "acceleration"]).change.max()
+    chaos, riding = sizes[CHAOS, "velocity_50"].max(), sizes[RIDING, "velocity_05"]
+    pure = table[(table.order == 0) & (table.regime == CHAOS)]
     return {
         "share": STATEMENT["share"],
         "chaos": chaos,
+        "chaos_slowest": sizes[CHAOS, "velocity_05"].max(),
         "riding": riding.min(),
         "most": riding.max(),
+        "riding_medians": (sizes[RIDING, "velocity_50"].min(), sizes[RIDING, "velocity_50"].max()),
+        "amplitudes": np.sort(pure.acceleration.unique()).tolist(),
+        "phases": table.phase.nunique(),
+        "stderr": (pure.velocity_50_stderr / pure.velocity_50.abs()).max(),
         "holds": bool(chaos <= STATEMENT["chaos"] and riding.min() >= STATEMENT["riding"]),
     }

@@ -61,4 +61,6 @@ def test_the_statement_holds_within_its_limits(riding, chaos, holds):
     found = statement_of(drives(riding, chaos))
     assert found["chaos"] == pytest.approx(0.5 * chaos * 0.05)
     assert found["riding"] == pytest.approx(riding * 0.05)
+    assert found["riding_medians"][1] <= found["most"] + 1e-12
+    assert found["amplitudes"] == [80.0]
     assert found["holds"] is holds

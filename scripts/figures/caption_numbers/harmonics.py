@@ -10,6 +10,8 @@ from operating.transit import ENDS
 
 def numbers(*, drives: pd.DataFrame) -> dict:
     harmless = clean_drive.harmless_shares(drives)
+    # Limits are rounded down, otherwise they would promise too much.
+    harmless["percent"] = np.floor(1e3 * harmless.share) / 10.0
     return {
         "statement": clean_drive.statement_of(drives),
         "limits": STATEMENT,
