@@ -13,8 +13,8 @@ import numpy as np
 from scipy.stats import qmc
 
 from calibration.measurements import INITIAL, Measurement
-from conveyor import INITIAL_CONDITION, plate_heights, sample_runs, set_parameters
-from conveyor.elementary import cos, exp, log
+from conveyor import INITIAL_CONDITION, plate_heights, plate_peaks, sample_runs, set_parameters
+from conveyor.elementary import exp, log
 from pipeline import grid
 
 TOLERANCE = 1e-5  # per contact step: errors of velocities stay far below those of a measurement
@@ -38,8 +38,7 @@ class Conditions(NamedTuple):
     @property
     def plate(self) -> np.ndarray:
         """Largest velocity of the plate along the track (m/s), shape (k,)."""
-        rows = self.rows
-        return rows["acceleration"] * cos(rows["angle"]) / (2.0 * math.pi * rows["frequency"])
+        return plate_peaks(self.rows).vx
 
 
 def conditions_at(

@@ -24,6 +24,7 @@ from .packing import (
     conveyor_and_start,
     parameter_table,
     plate_heights,
+    plate_peaks,
     replace_parameters,
     set_parameters,
 )

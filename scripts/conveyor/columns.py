@@ -8,7 +8,7 @@ UNITS = {
     **{"mean_velocity": "m/s", "z_end": "m", "vz_end": "m/s", "x_end": "m", "vx_end": "m/s", "max_gap": "m"},
     **{"impacts": "1", "contact_fraction": "1", "impact_speed": "m/s", "peak_force": "N"},
     **{"x": "m", "vx": "m/s", "z": "m", "vz": "m/s", "contact_force": "N", "friction_force": "N"},
-    **{"arrival": "s", "velocity": "m/s"},
+    **{"arrival": "s", "velocity": "m/s", "acceleration": "m/s²", "displacement": "m"},
     **{"period": "1", "longest_flight": "1", "cycles": "1", "delta": "m", "v": "m/s"},
     **{"lambda_1": "1/s", "lambda_2": "1/s", "stderr": "1/s"},
     **{"state": "", "status": ""},

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .arguments import LONGEST, check_array, check_choice, check_count, check_threads, check_tolerance
+from .arguments import LONGEST, check_array, check_choice, check_count, check_flag, check_threads, check_tolerance
 from .columns import Columns
 from .methods import fixed_step
-from .packing import as_rows, check_rows
+from .packing import check_rows
 from .parallel import for_each_chunk
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
 from .solver import record, trajectory
@@ -138,7 +138,7 @@ def sample_runs(
 
     Parameters
     ----------
-    parameters : from `parameter_table`, shape (n,); they are not checked
+    parameters : from `parameter_table`, shape (n,)
     times : s, ascending, shape (n, k)
     columns : the wanted samples, among x, z (m), vx, vz (m/s), contact_force, friction_force (N);
         without x, vx and friction_force the horizontal motion is not followed
@@ -157,7 +157,19 @@ def sample_runs(
     >>> sample_runs(parameters, np.array([[0.0, 0.5], [0.0, 0.7]]), columns=["x"]).x.shape
     (2, 2)
     """
-    rows, times = as_rows(parameters), np.ascontiguousarray(times, dtype=np.float64)
+    (rows, _), times = check_rows(parameters), check_array("times", times, 0.0, LONGEST, "s", least=0)
+    if times.ndim != 2 or len(times) != len(rows):
+        raise ValueError(f"times must have the shape ({len(rows)}, k), got {times.shape}")
+    if (np.diff(times) < 0.0).any():
+        raise ValueError("times must ascend in each row")
+    if not isinstance(columns, (list, tuple)):
+        raise TypeError(f"columns = {columns!r} must be a list of some of {', '.join(SAMPLES)}")
+    for name in columns:
+        check_choice("columns", name, SAMPLES)
+    _, tolerance, step = check_run(times.max(initial=np.finfo(np.float64).tiny), method, tolerance, step)
+    check_flag("reuse", reuse)
+    threads = check_threads(threads)
+    check_count("chunk", chunk, 1, 10**9)
     samples = {name: np.empty(times.shape) for name in columns}
     peaks, codes = np.full((2, len(rows)), np.nan), np.zeros(len(rows), np.int64)
     feeding = not {"x", "vx", "friction_force"}.isdisjoint(columns)
@@ -251,14 +263,14 @@ def transits(
     begin = check_array("begin", begin, 0.0, longest[0], "s", least=0)
     if begin.ndim > 0 and begin.shape != (len(parameters),):
         raise ValueError(f"begin has the shape {begin.shape}, but there are {len(parameters)} parts")
-    begin = np.broadcast_to(begin, len(parameters))
+    begin = np.full(len(parameters), begin)
     times = np.column_stack([begin, np.tile(longest, (len(parameters), 1))])
     arrival, travelled = np.empty((2, len(parameters), len(lengths)))
     peaks, codes = np.empty((len(parameters), 2)), np.empty(len(parameters), dtype=np.int64)
 
     def work(first, behind):
         rows = slice(first, behind)
-        targets = {"distances": lengths, "arrivals": arrival[rows]}
+        targets = {"distances": lengths, "arrivals": arrival[rows], "since": begin[rows]}
         samples, results = trajectory.integrate(parameters[rows], times[rows], tolerance=tolerance, **targets)
         travelled[rows] = samples[:, 1:, X]
         peaks[rows] = results[:, [record.IMPACT_SPEED, record.PEAK_FORCE]]

@@ -4,20 +4,43 @@ Functions that follow many trajectories take such a table. Their results have it
 same numbers as rows of float64, in an order that nothing else needs to know.
 """
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .arguments import HIGH, LOW, MAY_BE_NAN, check_numbers, check_parameters, check_type
+from .columns import Columns
+from .elementary import cos, sin
 from .parameters import DEFAULT_TOLERANCE, HARMONIC, PARAMETERS, TENSION_MODES, UNITS
 from .solver import contact, plate
 from .solver.jit import compiled
-from .solver.model import Conveyor, Start, check_static_friction, pack, unpack
+from .solver.model import (
+    ACCELERATION,
+    ANGLE,
+    FREQUENCY,
+    FRICTION,
+    PHASE_SHIFT,
+    STATIC_FRICTION,
+    TENSION,
+    Conveyor,
+    Start,
+    check_static_friction,
+    pack,
+    unpack,
+)
 
 # The initial condition; ψ0 only shifts the phase at which a motion is observed.
 INITIAL_CONDITION = ("psi0", "z0", "vz0")
 AT_REST = Start()
+# The ends of the intervals of a row's numbers, and of the numbers of a harmonic (see solver.plate).
+_, _, (SMALLEST_ORDER, LARGEST_ORDER) = HARMONIC["order"]
+LARGEST_SHARE = HARMONIC["normal"][2][1]
+ENDS = (
+    (LOW, [SMALLEST_ORDER, *[-LARGEST_SHARE] * (len(HARMONIC) - 1)]),
+    (HIGH, [LARGEST_ORDER, *[LARGEST_SHARE] * (len(HARMONIC) - 1)]),
+)
 
 
 def parameter_table(conveyor: Conveyor, start: Start = AT_REST, **values: ArrayLike) -> np.ndarray:
@@ -124,29 +147,39 @@ def as_table(rows: np.ndarray) -> np.ndarray:
     return rows.view(np.dtype(names))[..., 0]
 
 
-def rows_and_shape(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
-    """The numbers of a table, float64, shape (n, 16 + 5 h), and its shape; ValueError for anything else."""
+def check_rows(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
+    """The numbers of a table, float64, shape (n, 16 + 5 h), and its shape.
+
+    z0 may be NaN, for a part that starts on the plate; z0 and vz0 may be NaN for a run that continues a failed one.
+
+    ValueError for anything but a table, and for a number out of range, with its row and its column.
+    """
     rows = check_numbers("parameters", as_rows(parameters))
     waves = rows.shape[-1] - len(PARAMETERS) if rows.ndim > 0 else -1
     if waves < 0 or waves % len(HARMONIC) != 0:
         raise ValueError(f"parameters must be a table from parameter_table, got the shape {rows.shape}")
-    return np.ascontiguousarray(rows, dtype=np.float64).reshape(-1, rows.shape[-1]), rows.shape[:-1]
-
-
-def check_rows(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
-    """The numbers of a table, float64, shape (n, 16 + 5 h), and its shape; ValueError unless they are in range.
-
-    z0 may be NaN, for a part that starts on the plate; z0 and vz0 may be NaN for a run that continues a failed one.
-    """
-    rows, shape = rows_and_shape(parameters)
-    numbers = rows[:, : len(PARAMETERS)]
-    outside = ~((numbers >= LOW) & (numbers <= HIGH)) & ~(MAY_BE_NAN & np.isnan(numbers))
-    if outside.any():
-        row, column = np.argwhere(outside)[0]
-        name = PARAMETERS[column]
-        interval = f"[{LOW[column]:g}, {HIGH[column]:g}] {UNITS[name]}".rstrip()
-        raise ValueError(f"parameters[{row}]: {name} = {rows[row, column]!s} is outside {interval}")
+    shape = rows.shape[:-1]
+    rows = np.ascontiguousarray(rows, dtype=np.float64).reshape(-1, rows.shape[-1])
+    low, high = (np.append(ends, np.tile(of_wave, waves // len(HARMONIC))) for ends, of_wave in ENDS)
+    outside = ~((rows >= low) & (rows <= high))
+    outside[:, : len(PARAMETERS)] &= ~(MAY_BE_NAN & np.isnan(rows[:, : len(PARAMETERS)]))
+    for row, column in np.argwhere(outside)[:1]:
+        name = PARAMETERS[column] if column < len(PARAMETERS) else "harmonics"
+        interval = f"[{low[column]:g}, {high[column]:g}] {UNITS.get(name, '')}".rstrip()
+        raise ValueError(f"{place_of(row, shape)}: {name} = {rows[row, column]!s} is outside {interval}")
+    fractions = np.argwhere(rows[:, TENSION] % 1.0)
+    for row in fractions[:1, 0]:
+        raise ValueError(f"{place_of(row, shape)}: tension = {rows[row, TENSION]!s} is no position in TENSION_MODES")
+    for row in np.flatnonzero(rows[:, STATIC_FRICTION] < rows[:, FRICTION])[:1]:
+        coefficients = f"static_friction = {rows[row, STATIC_FRICTION]!s} is below friction = {rows[row, FRICTION]!s}"
+        raise ValueError(f"{place_of(row, shape)}: {coefficients}")
     return rows, shape
+
+
+def place_of(row: int, shape: tuple[int, ...]) -> str:
+    """A row of a table of some shape, in words."""
+    index = ", ".join(str(place) for place in np.unravel_index(row, shape))
+    return f"parameters[{index}]" if index else "parameters"
 
 
 def plate_heights(parameters: np.ndarray) -> np.ndarray:
@@ -158,6 +191,43 @@ def plate_heights(parameters: np.ndarray) -> np.ndarray:
     array([False,  True])
     """
     return heights_of_rows(as_rows(parameters))
+
+
+def plate_peaks(parameters: np.ndarray) -> Columns:
+    """The largest sizes of the plate's motion over a cycle, with its harmonics, for a table of the shape (n,).
+
+    Returns
+    -------
+    columns of the shape (n,): vx (m/s), the speed along the track; acceleration (m/s²) and displacement (m), the root
+    of the sum of squares of the largest ones along the track and normal to it, â and â/ω² for a plate without harmonics
+
+    Examples
+    --------
+    >>> double = {"order": 2, "along": 0.5, "normal": 0.5}
+    >>> peaks = plate_peaks(parameter_table(Conveyor(acceleration=40.0, harmonics=[double]), psi0=[0.0]))
+    >>> peaks.acceleration.round(6).tolist(), (1e3 * peaks.displacement).round(3).tolist()  # m/s², mm
+    ([60.0], [0.456])
+    """
+    rows = as_rows(parameters)
+    plates, plate_of = np.unique(
+        rows[:, [PHASE_SHIFT, *range(len(PARAMETERS), rows.shape[1])]], axis=0, return_inverse=True
+    )
+    shares = np.array([plate.peaks(waves, shift) for shift, *waves in plates]).reshape(-1, len(plate.Peaks._fields))
+    shares = plate.Peaks(*shares[plate_of].T)
+    acceleration, angle, omega = rows[:, ACCELERATION], rows[:, ANGLE], 2.0 * math.pi * rows[:, FREQUENCY]
+    along, normal = cos(angle) ** 2, sin(angle) ** 2
+
+    def combine(share_along: np.ndarray, share_normal: np.ndarray) -> np.ndarray:
+        # Exactly 1 without harmonics.
+        return np.sqrt(1.0 + along * (share_along**2 - 1.0) + normal * (share_normal**2 - 1.0))
+
+    return Columns(
+        {
+            "vx": acceleration * cos(angle) / omega * shares.vx,
+            "acceleration": acceleration * combine(shares.ax, shares.az),
+            "displacement": acceleration / omega**2 * combine(shares.x, shares.z),
+        }
+    )
 
 
 @compiled

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from conveyor import UNITS
+from conveyor import UNITS, plate_peaks
 from operating.advice import ENOUGH, EVEN, FAST, neighbours
 from operating.parts import differences
 from operating.regimes import (
@@ -23,6 +23,7 @@ from operating.regimes import (
     summarize_amplitudes,
 )
 from operating.transit import QUANTILES, spread_stderr, time_of_drop
+from pipeline import grid
 from pipeline.templates import render
 
 # If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
@@ -61,9 +62,8 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
 
 def moves_forward(transit: pd.DataFrame) -> bool:
     """Whether more than 5 % of the parts move forward, and not only a little, at any amplitude."""
-    model = transit.attrs["model"]
-    plate = transit.acceleration * math.cos(model["angle"]) / (2.0 * math.pi * model["frequency"])
-    return bool((transit.velocity_95 > STILL * plate).any())
+    _, conveyors = grid.product({"acceleration": transit.acceleration.tolist()}, transit.attrs["model"])
+    return bool((transit.velocity_95 > STILL * plate_peaks(conveyors).vx).any())
 
 
 def summarize_regimes(regimes: pd.DataFrame, merged: pd.DataFrame) -> dict[str, list[dict]]:

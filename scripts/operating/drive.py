@@ -13,12 +13,12 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pandas as pd
 
-from conveyor import UNITS, progress_bar
-from conveyor.elementary import cos, exp, log, sin
+from conveyor import UNITS, Columns, parameter_table, plate_peaks, progress_bar, set_parameters
+from conveyor.elementary import exp, log, sin
 from conveyor.linear_algebra import length
 from operating.parts import population
 from operating.transit import follow, summarize_populations
-from pipeline import fields, pareto
+from pipeline import fields, grid, pareto
 
 DRAWN = (
     8  # random designs of the first generation, in units of the population, because few of them meet all constraints
@@ -29,9 +29,6 @@ SEEDS = (1, 2)  # two searches; each must find nearly the front of both
 MOST_CHECKED = 20  # designs with the transit of all parts, chosen to differ as much as possible
 RECOMMENDED = 5  # of the confirmed designs
 SEARCHED = ("acceleration", "frequency", "angle", "phase_shift")
-# A second harmonic in the direction of vibration, searched if the config has bounds for both numbers.
-SECOND_HARMONIC = ("harmonic_share", "harmonic_phase")
-PHASES = 720  # of a cycle at which its largest value is looked for
 # Errors of the amplitude, as parts of the margin, at which the search follows a design, and at which it is checked.
 SEARCH_ERRORS, CHECK_ERRORS = np.array([-1.0, 1.0]), np.array([-1.0, 0.0, 1.0])
 # The worst measures of a design within the margin: name, measure of transit, and which value is the worst one.
@@ -45,15 +42,12 @@ WORST = {
     "velocity_95": ("velocity_95", np.max),
 }
 CHECKED = ("velocity", "velocity_50", "velocity_95", "impact_speed", "back", "late")
+RESULTANT = ", the root of the sum of squares of its largest values along the track and normal to it"
 TABLES = {
     "drive_front": (
         *(fields.number(name, UNITS[name], "parameter of the design") for name in SEARCHED),
-        fields.number(
-            "harmonic_share", "1", "acceleration of a second harmonic over the fundamental; 0 if not searched"
-        ),
-        fields.number("harmonic_phase", "rad", "phase of the second harmonic; 0 if not searched"),
-        fields.number("peak_acceleration", "m/s²", "largest acceleration of the plate in the direction of vibration"),
-        fields.number("displacement", "m", "amplitude of the drive's displacement"),
+        fields.number("peak_acceleration", "m/s²", f"acceleration of the plate{RESULTANT}; â without harmonics"),
+        fields.number("displacement", "m", f"displacement of the plate{RESULTANT}; â/ω² without harmonics"),
         fields.number("velocity", "m/s", "smallest 5 % quantile of the velocity within the margin, in the search"),
         fields.number("impact_speed", "m/s", "largest 95 % quantile of the impact speed within the margin"),
         fields.flag("checked", "whether all parts were followed along the track; the next columns are null otherwise"),
@@ -63,11 +57,6 @@ TABLES = {
         fields.number("checked_impact_speed", "m/s", "largest 95 % quantile of the impact speed within the margin"),
         fields.number("checked_back", "1", "largest share of the parts that have moved back"),
         fields.number("checked_late", "1", "largest share of the parts that are late"),
-        fields.number(
-            "pure_velocity",
-            "m/s",
-            "as checked_velocity, without the second harmonic at the same peak acceleration; null if not searched",
-        ),
         fields.flag("confirmed", "whether these numbers keep the constraints"),
         fields.flag("recommended", "whether it is one of the recommended settings"),
     ),
@@ -79,13 +68,8 @@ TABLES = {
 }
 
 
-def searched(bounds: dict) -> tuple[str, ...]:
-    """The numbers of a design."""
-    return SEARCHED + SECOND_HARMONIC if set(SECOND_HARMONIC) <= set(bounds) else SEARCHED
-
-
 def designs_of(points: np.ndarray, bounds: dict) -> np.ndarray:
-    """Designs, shape (k, 4) or (k, 6), from points of the search of the same shape.
+    """Designs, shape (k, 4), from points of the search of the same shape.
 
     In place of the amplitude, points have the logarithm of its part normal to the track. The normal motion depends on
     this part and on the frequency only: two points with the same normal motion have offspring with this motion, too.
@@ -97,43 +81,27 @@ def designs_of(points: np.ndarray, bounds: dict) -> np.ndarray:
 
 
 def bounds_of_points(bounds: dict) -> np.ndarray:
-    """Bounds of the search, shape (2, 4) or (2, 6)."""
-    ends = np.array([bounds[name] for name in searched(bounds)]).T
+    """Bounds of the search, shape (2, 4)."""
+    ends = np.array([bounds[name] for name in SEARCHED]).T
     ends[:, 0] = log(np.maximum(ends[:, 0] * sin(ends[:, 2]), 1e-9))
     return ends
 
 
-def largest(designs: np.ndarray, divisor: float) -> np.ndarray:
-    """The largest |cos θ + s/divisor cos(2θ + phase)| of each design with a share s; 1 without a second harmonic."""
-    if designs.shape[1] == len(SEARCHED):
-        return np.ones(len(designs))
-    share, phase = designs[:, len(SEARCHED) :, None].transpose(1, 0, 2)
-    theta = np.linspace(0.0, 2.0 * np.pi, PHASES, endpoint=False)
-    return np.abs(cos(theta) + share / divisor * cos(2.0 * theta + phase)).max(axis=1)
-
-
-def peak_acceleration(designs: np.ndarray) -> np.ndarray:
-    """Largest acceleration of the plate in the direction of vibration (m/s²)."""
-    return designs[:, 0] * largest(designs, 1.0)
-
-
-def displacement(designs: np.ndarray) -> np.ndarray:
-    """Amplitude of the drive's displacement (m)."""
-    return designs[:, 0] / (2.0 * np.pi * designs[:, 1]) ** 2 * largest(designs, 4.0)
+def peaks_of(designs: np.ndarray, model: dict) -> Columns:
+    """What `plate_peaks` returns for designs, shape (k, 4), with the harmonics of the model."""
+    conveyor, _ = grid.conveyor_and_start(model)
+    table = np.full(len(designs), parameter_table(conveyor))
+    set_parameters(table, dict(zip(SEARCHED, designs.T, strict=True)))
+    return plate_peaks(table)
 
 
 def model_of(design: np.ndarray, model: dict) -> dict:
     """The model on a drive."""
-    numbers = dict(zip(SEARCHED[1:], design[1 : len(SEARCHED)], strict=True))
-    if len(design) > len(SEARCHED):
-        share, phase = design[len(SEARCHED) :].tolist()
-        harmonic = {"order": 2, "along": share, "along_phase": phase, "normal": share, "normal_phase": phase}
-        numbers["harmonics"] = [harmonic]
-    return model | numbers
+    return model | dict(zip(SEARCHED[1:], design[1:], strict=True))
 
 
 def evaluate(designs: np.ndarray, settings: dict, errors: np.ndarray, *, threads: int = 1) -> pd.DataFrame:
-    """The worst measures within the margin of designs, shape (k, 4) or (k, 6), and their displacements.
+    """The worst measures within the margin of designs, shape (k, 4), and their displacements.
 
     errors : of the amplitude, in parts of the margin
     """
@@ -147,7 +115,7 @@ def evaluate(designs: np.ndarray, settings: dict, errors: np.ndarray, *, threads
         name: worst(measures[measure].to_numpy(dtype=float).reshape(len(designs), len(errors)), axis=1)
         for name, (measure, worst) in WORST.items()
     }
-    return pd.DataFrame(outcome | {"displacement": displacement(designs)})
+    return pd.DataFrame(outcome | {"displacement": peaks_of(designs, settings["model"]).displacement})
 
 
 def constraints(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
@@ -179,12 +147,13 @@ def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np
 
     Designs with too large a displacement are not followed.
     """
-    outcome = pd.DataFrame({"displacement": displacement(designs)}).reindex(columns=[*WORST, "displacement"])
+    peaks = peaks_of(designs, settings["model"])
+    outcome = pd.DataFrame({"displacement": peaks.displacement}).reindex(columns=[*WORST, "displacement"])
     within = outcome.displacement.to_numpy() <= settings["displacement"]
     if within.any():
         outcomes = evaluate_few(designs[within], settings)
         outcome.loc[within, outcomes.columns] = outcomes.to_numpy()
-    objectives = np.column_stack([-outcome.velocity, outcome.impact_speed, peak_acceleration(designs)])
+    objectives = np.column_stack([-outcome.velocity, outcome.impact_speed, peaks.acceleration])
     return np.where(np.isnan(objectives), np.inf, objectives), constraints(outcome, settings)
 
 
@@ -240,18 +209,15 @@ def objectives_of(outcome: pd.DataFrame, acceleration: pd.Series) -> np.ndarray:
 def check(front: pd.DataFrame, settings: dict, *, threads: int = 1) -> pd.DataFrame:
     """A front with the transit of all parts for some designs, and the recommended ones among confirmed designs."""
     unknown = dict.fromkeys((f"checked_{name}" for name in CHECKED), np.nan)
-    front = front.assign(checked=False, pure_velocity=np.nan, confirmed=False, recommended=False, **unknown)
+    front = front.assign(checked=False, confirmed=False, recommended=False, **unknown)
     chosen = spread(objectives_of(front, front.peak_acceleration), MOST_CHECKED)
     if len(chosen) == 0:
         return front
-    designs = front.loc[chosen, list(searched(settings["bounds"]))].to_numpy()
+    designs = front.loc[chosen, list(SEARCHED)].to_numpy()
     outcome = evaluate(designs, settings, CHECK_ERRORS, threads=threads)
     outcome.index = chosen
     front.loc[chosen, "checked"] = True
     front.loc[chosen, list(unknown)] = outcome[list(CHECKED)].to_numpy()
-    if designs.shape[1] > len(SEARCHED):
-        pure = np.column_stack([peak_acceleration(designs), designs[:, 1 : len(SEARCHED)]])
-        front.loc[chosen, "pure_velocity"] = evaluate(pure, settings, CHECK_ERRORS, threads=threads).velocity.to_numpy()
     is_confirmed = is_within(outcome, settings)
     front.loc[chosen, "confirmed"] = is_confirmed
     sure = outcome[is_confirmed]
@@ -272,10 +238,10 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
         np.vstack([front.objectives for front in fronts.values()]),
     )
     whole = pareto.hypervolume(objectives, reference_point(settings))
-    front = pd.DataFrame(designs, columns=searched(settings["bounds"])).reindex(columns=SEARCHED + SECOND_HARMONIC)
-    front = front.fillna(0.0).assign(
-        peak_acceleration=peak_acceleration(designs),
-        displacement=displacement(designs),
+    peaks = peaks_of(designs, settings["model"])
+    front = pd.DataFrame(designs, columns=SEARCHED).assign(
+        peak_acceleration=peaks.acceleration,
+        displacement=peaks.displacement,
         velocity=-objectives[:, 0],
         impact_speed=objectives[:, 1],
     )

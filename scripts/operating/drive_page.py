@@ -39,8 +39,6 @@ def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFra
     values = summarize_search(front=drive_front, generations=drive_generations)
     values |= {
         "rows": recommended.to_dict("records"),
-        "second": "harmonic_share" in drive_front.attrs["bounds"],
-        "best_gain": (recommended.checked_velocity / recommended.pure_velocity - 1.0).max(),
         "late": (recommended.checked_late > MANY_LATE).sum(),
         "slides": is_steep(drive_front.attrs["model"]),
         "frictionless": is_frictionless(drive_front.attrs["model"]),

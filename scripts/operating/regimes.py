@@ -1,11 +1,8 @@
 """Regimes: intervals of amplitudes with one velocity, with several velocities, with chaos."""
 
-import math
-
 import numpy as np
 import pandas as pd
 
-from conveyor.elementary import cos
 from pipeline import fields
 
 ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
@@ -42,31 +39,31 @@ COLUMNS = (
 )
 
 
+def fill_in(model: dict) -> dict:
+    """A model with an inclination and a static friction."""
+    return {"inclination": 0.0, "static_friction": model["friction"]} | model
+
+
 def is_steep(model: dict) -> bool:
     """Whether a track is too steep for friction to stop a part that slides."""
-    return abs(np.tan(model.get("inclination", 0.0))) > model["friction"]
+    return bool(steepness(fill_in(model)) > 0)
 
 
 def is_frictionless(model: dict) -> bool:
     """Whether nothing moves a part along a level track."""
-    return model.get("static_friction", model["friction"]) == 0.0
+    return fill_in(model)["static_friction"] == 0.0
 
 
-def plate_speed(rows: np.ndarray) -> np.ndarray:
-    """The largest velocity of the plate along the track (m/s) for a table of parameters, shape (n,)."""
-    return rows["acceleration"] * cos(rows["angle"]) / (2.0 * math.pi * rows["frequency"])
-
-
-def steepness(rows: np.ndarray) -> np.ndarray:
+def steepness(conveyors: np.ndarray | dict) -> np.ndarray:
     """How steep tracks are, int64, shape (n,): 0 where friction stops a part that slides, 2 where it does not even hold
     a part at rest, 1 between, where only parts that stick again and again have a mean velocity.
 
     On average, the contact force is m g cos α. Sliding friction takes at most μ times as much.
 
-    rows : table of parameters, shape (n,)
+    conveyors : table of parameters, shape (n,), or a model
     """
-    slope = np.abs(np.tan(rows["inclination"]))
-    return (slope > rows["friction"]).astype(np.int64) + (slope > rows["static_friction"])
+    slope = np.abs(np.tan(conveyors["inclination"]))
+    return (slope > conveyors["friction"]).astype(np.int64) + (slope > conveyors["static_friction"])
 
 
 def same(velocity: np.ndarray, other: float) -> np.ndarray:

@@ -111,17 +111,11 @@ class DriveBounds(TypedDict):
     frequency: NotRequired[interval(MODEL_TYPES["frequency"], DESCRIPTIONS["frequency"])]
     angle: interval(MODEL_TYPES["angle"], DESCRIPTIONS["angle"])
     phase_shift: interval(MODEL_TYPES["phase_shift"], DESCRIPTIONS["phase_shift"])
-    harmonic_share: NotRequired[
-        interval(number("share of a second harmonic", ge=0, le=2), "share of a second harmonic, with harmonic_phase")
-    ]
-    harmonic_phase: NotRequired[
-        interval(number("phase of the second harmonic", "rad", ge=-6.2832, le=6.2832), "phase, with harmonic_share")
-    ]
 
 
 class Drive(TypedDict):
     bounds: described(DriveBounds, "search interval of each parameter")
-    displacement: number("largest amplitude of the drive's displacement, â/ω²", "m", gt=0, le=1)
+    displacement: number("largest displacement of the plate, â/ω² without harmonics", "m", gt=0, le=1)
     velocity: number("least useful velocity of the slowest 5 % of the parts", "m/s", gt=0, le=100)
     impact_speed: number("largest impact speed that a design may have", "m/s", gt=0, le=100)
     back: number("largest share of the parts that may move back", ge=0, lt=1)
@@ -186,7 +180,5 @@ TABLE_SETTINGS = {
     **dict.fromkeys(("operating/advice", "operating/changes"), itemgetter("advice")),
     "operating/throws": partial(box_settings, "throws"),
     "operating/track": partial(box_settings, "track"),
-    **dict.fromkeys(
-        ("operating/drive_front", "operating/drive_generations", "operating/second_harmonic"), drive_settings
-    ),
+    **dict.fromkeys(("operating/drive_front", "operating/drive_generations"), drive_settings),
 }

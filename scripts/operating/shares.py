@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor import LAST, Columns, continued, sample_runs, sweep, throw_number
+from conveyor import LAST, Columns, continued, plate_peaks, sample_runs, sweep, throw_number
 from conveyor.elementary import cos, sin
 from operating import regimes
 from operating.parts import IDENTICAL, population
@@ -110,7 +110,7 @@ def velocities(
     settled = np.where(period > 0, labels.cycles, np.minimum(labels.cycles, CYCLES))
     velocity, status = np.full(n, np.nan), np.full(n, regimes.UNSETTLED, dtype=object)
     peaks = np.full((n, 2), np.nan)
-    plate = regimes.plate_speed(parameters)
+    plate = plate_peaks(parameters).vx
     # A mean over whole periods; the last quarter of a run is what a mean is taken over.
     step = np.maximum(period, 1)
     quarter = np.maximum(np.maximum(CYCLES, np.ceil((settled + FORGOTTEN) / 3.0)), step)

@@ -8,9 +8,9 @@ Where the track is too steep for friction, a part slides downhill faster and fas
 
 import numpy as np
 
-from conveyor import sweep
+from conveyor import plate_peaks, sweep
 from operating.parts import IDENTICAL, population
-from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY, plate_speed, steepness
+from operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY, fill_in, steepness
 from operating.shares import FORGOTTEN, SETTLED, brief_durations, continue_normal
 from pipeline import fields, grid
 from pipeline.labelling import label_starts
@@ -70,14 +70,13 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     period[number, state] = of_motion[:, None]
     missing = np.where(is_open, NOT_ALL_SETTLED, NOT_REACHED)[:, None, None]
     status = np.where(period > 0, "ok", missing).astype(object)
-    model = settings["model"]
-    held = np.abs(np.tan(inclinations)) <= model.get("static_friction", model["friction"])
-    away = np.repeat(~held, len(STATES) * len(shifts)).reshape(shape)
+    slides = steepness(fill_in(settings["model"]) | {"inclination": inclinations}) == 2
+    away = np.repeat(slides, len(STATES) * len(shifts)).reshape(shape)
     # Where only static friction holds a part, its velocity may not settle.
     doubtful = np.flatnonzero(steepness(rows) == 1)
     longer = sweep(rows[doubtful], duration=2.0 * durations[doubtful], **options)["mean_velocity"]
     unsettled = np.zeros(len(rows), dtype=bool)
-    unsettled[doubtful] = np.abs(longer - run["mean_velocity"][doubtful]) > SETTLED * plate_speed(rows[doubtful])
+    unsettled[doubtful] = np.abs(longer - run["mean_velocity"][doubtful]) > SETTLED * plate_peaks(rows[doubtful]).vx
     away[number, state] |= unsettled.reshape(len(settled), len(shifts))
     velocity[away], status[away] = np.nan, SLIDES_AWAY
     alpha, state, shift = np.indices(shape)

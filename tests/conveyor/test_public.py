@@ -3,8 +3,12 @@
 import doctest
 import importlib
 import inspect
+import os
 import random
 import signal
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -45,7 +49,11 @@ FUNCTIONS = {
     | {"needs": "vertical", "threads": 1, "chunk": 10},
     "transits": {"parameters": TABLE, "lengths": [1e-3], "longest": [0.05], "begin": 0.01, "tolerance": 1e-8}
     | {"threads": 1},
-    "classify": {"parameters": TABLE, "cycles": 10, "tolerance": 1e-8, "threads": 1},
+    "sample_runs": {"parameters": TABLE, "times": [[0.0, 0.01]] * 2, "columns": ["x"], "method": "euler"}
+    | {"tolerance": 1e-8, "step": 1e-5, "reuse": True, "threads": 1, "chunk": 10},
+    "classify": {"parameters": TABLE, "cycles": 10, "exponents": True, "tolerance": 1e-8, "threads": 1},
+    "find_attractors": {"parameters": TABLE, "cycles": 10, "orbits": True, "most": 10, "tolerance": 1e-8, "threads": 1},
+    "lyapunov_spectrum_on_attractors": {"parameters": TABLE, "cycles": 5, "blocks": 2, "tolerance": 1e-8, "threads": 1},
     "lyapunov_spectrum": {"parameters": TABLE, "states": np.zeros((2, 2)), "transient": 10, "cycles": 5, "blocks": 2}
     | {"tolerance": 1e-8, "threads": 1},
     "periodic_orbit": {"conveyor": Conveyor(), "start": Start(), "period": 1, "transient": 10},
@@ -66,6 +74,7 @@ OVERDAMPED = {
     "mass": 1.45e-4,
     "exponent": 1.0,
 }
+ENVIRONMENT = os.environ | {"PYTHONPATH": str(Path(conveyor.__file__).parents[1])}
 METHODS = {"mean_velocity": {"last": 0.5}, "sample": {"times": [0.0, 0.01]}}
 
 
@@ -204,7 +213,10 @@ def test_a_basin_has_the_labels_of_its_initial_conditions():
     assert set(found.state.flat) == {"first", "second"}
 
 
-CHECKED = ("sweep", "lyapunov_spectrum", "find_orbit")
+CHECKED = (
+    *("sweep", "sample_runs", "transits", "classify", "find_attractors", "lyapunov_spectrum", "find_orbit"),
+    "lyapunov_spectrum_on_attractors",
+)
 
 
 def changed_table(parameter, value):
@@ -225,8 +237,125 @@ def test_tables_of_parameters_are_checked(name, value, orbit):
             continue
         if np.isnan(value) and parameter in ("z0", "vz0"):
             continue  # a part that starts on the plate, and one whose last run failed
-        with pytest.raises(ValueError, match=rf"parameters\[\d\]: {parameter} = .* is outside \["):
+        with pytest.raises(
+            ValueError, match=rf"parameters{'' if name == 'find_orbit' else r'.1.'}: {parameter} = .* is"
+        ):
             getattr(conveyor, name)(**arguments_of(name, orbit) | {"parameters": table})
+
+
+@pytest.mark.parametrize("name", set(CHECKED) - {"find_orbit"})
+def test_contradictions_in_a_table_are_named(name, orbit):
+    for parameter, value, words in (
+        ("tension", 7.0, "tension = 7.0 is outside"),
+        ("tension", 0.5, "tension = 0.5 is no position"),
+        ("static_friction", 0.1, "static_friction = 0.1 is below friction = 0.15"),
+    ):
+        with pytest.raises(ValueError, match=rf"parameters\[1\]: {words}"):
+            getattr(conveyor, name)(**arguments_of(name, orbit) | {"parameters": changed_table(parameter, value)})
+    wavy = parameter_table(Conveyor(harmonics=[{"order": 2, "along": 0.1}]), z0=[[0.0, 1e-4], [2e-4, 3e-4]])
+    wavy["harmonics"][1, 0, 1] = np.nan
+    with pytest.raises(ValueError, match=r"parameters\[1, 0\]: harmonics = nan is outside"):
+        conveyor.sweep(wavy, duration=0.01)
+
+
+@pytest.mark.parametrize("method", ["event", "euler"])
+def test_times_of_samples_ascend(method):
+    times = np.array([[0.0, 0.01], [0.01, 0.0]])
+    with pytest.raises(ValueError, match="times must ascend in each row"):
+        conveyor.sample_runs(TABLE, times, method=method)
+    with pytest.raises(ValueError, match=r"times must have the shape \(2, k\)"):
+        conveyor.sample_runs(TABLE, times[0])
+
+
+@pytest.mark.parametrize("acceleration", [0.0, 46.5])
+def test_no_part_touches_the_plate_for_longer_than_its_run(acceleration):
+    """The durations of the pieces add up to slightly more than the run: 1.0000000000000004 at 46.5 m/s²."""
+    parameters = parameter_table(Conveyor(acceleration=acceleration), z0=[0.0, 0.0, 0.0], psi0=[0.0, 1.0, 3.0])
+    parameters["z0"] = np.nan  # on the plate
+    for duration in (0.3, 0.7, 1.0):
+        assert (conveyor.sweep(parameters, duration=duration).contact_fraction <= 1.0).all()
+    spectrum = conveyor.lyapunov_spectrum_on_attractors(parameters, cycles=20, blocks=5)
+    assert (spectrum.contact_fraction <= 1.0).all()
+    assert (conveyor.lyapunov_spectrum(parameters, cycles=20, blocks=5).contact_fraction <= 1.0).all()
+
+
+def test_attractors_of_long_periods_are_found():
+    """At 50 m/s² and a damping of 0.1, nine of the sampled initial conditions lead to an orbit of 12 cycles."""
+    row = parameter_table(Conveyor(acceleration=50.0, damping=0.1))
+    found = conveyor.find_attractors(row, cycles=400)
+    samples = conveyor.sampled_initial_conditions(row)
+    starts = conveyor.start_at(np.repeat(conveyor.replace_parameters(row, psi0=-np.pi)[None], 32), samples, 1e-10)
+    labels = conveyor.classify(starts, cycles=400, exponents=False)
+    assert set(labels.period[labels.period > 0]) <= set(found.orbits.periods.tolist())
+    assert sorted(found.orbits.periods.tolist()).count(12) == 1
+    # Labels with these attractors are those without, which may need more cycles.
+    known = conveyor.classify(starts, cycles=400, exponents=False, attractors=found)
+    converged = labels.period > 0
+    assert (known.period[converged] == labels.period[converged]).all()
+
+
+INTERRUPTED = """
+import os, signal, threading, numpy as np
+from conveyor import *
+table = parameter_table(Conveyor(), acceleration=[80.0, 81.0], z0=3e-4)
+calls = {
+    "follow_attractor": lambda n: follow_attractor(table, transient=n, strobes=2, tolerance=1e-10),
+    "strobes": lambda n: strobes(table[0], n, 1e-10),
+    "periodic_orbit": lambda n: periodic_orbit(Conveyor(acceleration=80.0), transient=n),
+    "lyapunov_spectrum": lambda n: lyapunov_spectrum(table, transient=n, cycles=5, blocks=2),
+}
+for name, call in calls.items():
+    call(10)
+    threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
+    try:
+        call(100_000)
+    except BaseException as error:
+        print(name, type(error).__name__)
+"""
+
+
+def test_an_interrupt_stays_one():
+    """Numba runs Python code where a compiled function returns an array, and would raise a SystemError there."""
+    run = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=True, env=ENVIRONMENT
+    )
+    assert {line.split()[1] for line in run.stdout.splitlines()} == {"KeyboardInterrupt"}, run.stdout
+    assert len(run.stdout.splitlines()) == 4
+
+
+def test_a_missing_extra_is_named_where_its_function_is_called():
+    """Every public name can be looked up without pymoo."""
+    code = """
+import sys
+sys.modules["pymoo"] = None
+import conveyor
+from conveyor import *
+assert all(hasattr(conveyor, name) for name in conveyor.__all__)
+help(conveyor)
+try:
+    fit_hyperbola_by_pymoo([1.0, 2.0, 3.0], [1.0, 2.0, 4.0], {"A": (0, 1), "B": (0, 1), "C": (0, 1)}, 1, 10)
+except ModuleNotFoundError as error:
+    print("MISSING", error)
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=ENVIRONMENT)
+    assert (
+        'MISSING fit_hyperbola_by_pymoo needs pymoo; install it in the folder of this project by pip install ".[fit]"'
+        in (run.stdout)
+    )
+
+
+def test_missing_interval_arithmetic_is_named():
+    code = 'import sys; sys.modules["flint"] = None; import conveyor.certificates as c; c.prove_orbit'
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=ENVIRONMENT)
+    assert run.stderr.splitlines()[-1].endswith('by pip install ".[certificates]"'), run.stderr
+
+
+def test_numba_without_its_compiler_is_refused_in_a_sentence():
+    environment = ENVIRONMENT | {"NUMBA_DISABLE_JIT": "1"}
+    code = "from conveyor import simulate"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment)
+    assert "NUMBA_DISABLE_JIT is set" in run.stderr.splitlines()[-1]
+    assert "intrinsic" not in run.stderr
 
 
 def test_a_run_that_continues_a_failed_one_fails():

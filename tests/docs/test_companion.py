@@ -607,3 +607,10 @@ def test_a_map_has_two_even_axes(maps):
     table.attrs = {**table.attrs, "axes": {"z0": {}}}
     with pytest.raises(JobError, match="needs two axes"):
         build.encode(table)
+
+
+def test_harmonics_of_the_plate_are_refused_by_name(maps):
+    """The page would draw the motion on a plate without them."""
+    model = CONFIG["model"] | {"harmonics": [{"order": 2, "along": 0.5, "normal": 0.5}]}
+    with pytest.raises(JobError, match="harmonics"):
+        build.make(maps, CONFIG | {"model": model})

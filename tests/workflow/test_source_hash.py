@@ -25,7 +25,6 @@ CALLS = {
     "operating/drift": {"operating/regimes", "operating/transit"},
     "operating/track": {"operating/regimes", "operating/shares"},
     "operating/drive": {"operating/transit"},
-    "operating/second_harmonic": {"operating/drive", "operating/transit"},
     "excitation/clean_drive": {"operating/transit"},
     "excitation/comparison": {"operating/transit"},
     "operating/throws": {"operating/regimes", "operating/shares"},

@@ -274,11 +274,6 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
                 yield f"{place}.{key}.{name} is missing; add it"
 
 
-def drive(config: dict, defaults: dict) -> Iterator[str]:
-    if ("harmonic_share" in config["drive"]["bounds"]) != ("harmonic_phase" in config["drive"]["bounds"]):
-        yield "drive.bounds has only one of harmonic_share and harmonic_phase; give both, or none"
-
-
 def calibration(config: dict, defaults: dict) -> Iterator[str]:
     """Settings that contradict each other, and faults in the file of measurements."""
     own = config["calibration"]
@@ -336,8 +331,7 @@ def precision(config: dict, defaults: dict) -> Iterator[str]:
 
 CHECKS = (
     *(prefix, file_names, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
-    *(unknown_references, figures, unused_keys, calibration),
-    *(precision, drive),
+    *(unknown_references, figures, unused_keys, calibration, precision),
 )
 
 

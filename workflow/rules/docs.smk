@@ -19,7 +19,6 @@ COPIES = {
 PAGES = {
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
     "checked": tables_of("results/theory", "results/map_check"),
-    "second_harmonic": tables_of("operating/second_harmonic"),
     "tables": {},
 }
 # The tables behind the facts, by their roles in scripts/docs/facts.py.

@@ -162,19 +162,3 @@ rule drive_page:
         **stage("operating.drive_page"),
     script:
         "../../scripts/make.py"
-
-
-# Only an explicit target makes this table, because its searches take long.
-rule second_harmonic:
-    """The fastest drives with and without a second harmonic."""
-    output:
-        **tables_of("operating/second_harmonic"),
-    log:
-        log_file("operating/second_harmonic"),
-    benchmark:
-        benchmark_file("operating/second_harmonic")
-    threads: THREADS
-    params:
-        **stage("operating.second_harmonic", "operating/second_harmonic"),
-    script:
-        "../../scripts/make.py"

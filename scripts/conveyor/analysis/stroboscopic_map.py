@@ -161,8 +161,9 @@ def advance(c, series, state, phase, duration, tangent, features):
             return OK
 
 
-@compiled
-def follow_map(parameters, tolerance, state, cycles):
+def follow_map(
+    parameters: np.ndarray, tolerance: float, state: np.ndarray, cycles: int
+) -> tuple[int, np.ndarray, np.ndarray]:
     """Advance `state` by a number of cycles.
 
     A motion that returns to a state bit for bit repeats itself from then on, and is copied. Most settled motions do.
@@ -180,16 +181,26 @@ def follow_map(parameters, tolerance, state, cycles):
     strobes : float64, shape (cycles, 2), δ and v after each cycle; NaN from a failure on
     features : float64, shape (cycles, 5), see `advance`; NaN from a failure on
     """
+    strobes, features = np.full((cycles, 2), np.nan), np.full((cycles, FEATURES), np.nan)
+    return fill_map(parameters, tolerance, state, strobes, features), strobes, features
+
+
+@compiled
+def fill_map(parameters, tolerance, state, strobes, features):
+    """The compiled part of `follow_map`, which fills the arrays and returns the status.
+
+    Numba runs Python code where a compiled function returns an array. Ctrl-C would be raised there, as a SystemError.
+    """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
     no_tangent = np.empty((0, 2))
     cycle_features = np.zeros(FEATURES)
-    strobes, features = np.full((cycles, 2), np.nan), np.full((cycles, FEATURES), np.nan)
+    cycles = len(strobes)
     mark = 0  # 0, 1, 3, 7, …: at last one is in the repeated part, a whole period before n (Brent 1980)
     for n in range(cycles):
         status = advance(c, series, state, c.psi0, c.period, no_tangent, cycle_features)
         if status != OK:
-            return status, strobes, features
+            return status
         copy(strobes[n], state)
         copy(features[n], cycle_features)
         same = strobes[n, 0] == strobes[mark, 0] and strobes[n, 1] == strobes[mark, 1]
@@ -199,10 +210,10 @@ def follow_map(parameters, tolerance, state, cycles):
                 copy(strobes[later], strobes[later - n + mark])
                 copy(features[later], features[later - n + mark])
             copy(state, strobes[cycles - 1])
-            return OK, strobes, features
+            return OK
         if n == 2 * mark + 1:
             mark = n
-    return OK, strobes, features
+    return OK
 
 
 @compiled
@@ -212,8 +223,9 @@ def hides_determinant(matrix):
     return along - across <= HIDDEN * (abs(along) + abs(across))
 
 
-@compiled
-def monodromy(parameters, tolerance, state, cycles, airborne):
+def monodromy(
+    parameters: np.ndarray, tolerance: float, state: np.ndarray, cycles: int, airborne: float
+) -> tuple[int, np.ndarray, np.ndarray]:
     """Advance `state` by a number of cycles, with the linearisation of each cycle.
 
     The monodromy matrix is the product of the matrices, the last one leftmost; its determinant is the product of their
@@ -230,20 +242,26 @@ def monodromy(parameters, tolerance, state, cycles, airborne):
     matrices : float64, shape (cycles, 2, 2), ∂(δ, Y)_end/∂(δ, Y)_start of each cycle; 0 behind a failure
     features : float64, shape (cycles, 5), see `advance`; 0 behind a failure
     """
+    matrices, features = np.zeros((cycles, 2, 2)), np.zeros((cycles, FEATURES))
+    return fill_monodromy(parameters, tolerance, state, airborne, matrices, features), matrices, features
+
+
+@compiled
+def fill_monodromy(parameters, tolerance, state, airborne, matrices, features):
+    """The compiled part of `monodromy`, see `fill_map`."""
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
     cycle_features = np.zeros(FEATURES)
     cycle_features[AIRBORNE] = airborne
-    matrices, features = np.zeros((cycles, 2, 2)), np.zeros((cycles, FEATURES))
-    for n in range(cycles):
+    for n in range(len(matrices)):
         tangent = np.eye(2)
         status = advance(c, series, state, c.psi0, c.period, tangent, cycle_features)
         copy(features[n], cycle_features)
         for k in range(2):
             copy(matrices[n, k], tangent[:, k])
         if status != OK:
-            return status, matrices, features
-    return OK, matrices, features
+            return status
+    return OK
 
 
 def pack_states(parameters: np.ndarray, states: np.ndarray, tolerance: float) -> np.ndarray:

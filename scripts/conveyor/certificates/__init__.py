@@ -19,6 +19,20 @@ results only say where to look; no bound depends on them. Read the modules in th
     covering       topological horseshoes from covering relations
 """
 
+from typing import Any
+
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+load, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+
+
+def __getattr__(name: str) -> Any:
+    try:
+        return load(name)
+    except ModuleNotFoundError as error:
+        if error.name != "flint":
+            raise
+        message = (
+            'certificates need python-flint; install it in the folder of this project by pip install ".[certificates]"'
+        )
+        raise ModuleNotFoundError(message, name=error.name) from None

@@ -21,6 +21,9 @@ import llvmlite
 import numba
 from numba.core.caching import UserWideCacheLocator
 
+if numba.config.DISABLE_JIT:
+    raise ImportError("NUMBA_DISABLE_JIT is set, but this library runs only as compiled code; unset the variable")
+
 SOLVER = Path(__file__).resolve().parent
 LIBRARY = SOLVER.parent
 

@@ -12,7 +12,7 @@ paper's, costs one comparison in each function.
 
 import math
 from collections import namedtuple
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -26,8 +26,9 @@ from .workspace import ALONG, COSINE, HARMONICS, LIFT_W, NORMAL, SINE, WAVE, T, 
 K, ALONG_COSINE, ALONG_SINE, NORMAL_COSINE, NORMAL_SINE = range(5)
 NUMBERS = 5
 
-# The search for the largest downward acceleration: phases of a scan, and scans, each of the neighbourhood of the last.
-PHASES, FINER = 4096, 3
+# The search for the largest value over a cycle: phases of a scan, then scans of the neighbourhood of the largest value
+# and the phases of each.
+PHASES, FINER, CLOSE = 4096, 3, 64
 
 # What harmonics add to position, velocity and acceleration normal to the track (z, vz, az) and along it (x, vx, ax), as
 # shares of the fundamental's amplitudes; the position with the opposite sign.
@@ -40,6 +41,9 @@ Shapes = namedtuple("Shapes", "z vz vx ax")
 # Bounds: on position (m), acceleration (m/s²) and its rate (m/s³) normal to the track; on acceleration and its rate
 # along the track, as multiples of a_x and a_x ω.
 Bounds = namedtuple("Bounds", "height lift jerk pull pull_rate")
+# The largest sizes of positions, velocity and accelerations along the track (x, vx, ax) and normal to it (z, az), as
+# multiples of the fundamental's amplitudes.
+Peaks = namedtuple("Peaks", "x z vx ax az")
 # What functions of a phase take of contact.Constants, for other callers; other arithmetic has no harmonics.
 Plate = namedtuple("Plate", "omega a_x a_z cos_shift sin_shift harmonics waves")
 
@@ -224,16 +228,47 @@ def sums_at(harmonics, phases):
     return sums_of_phases
 
 
+def largest_values(functions: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """The largest values over a cycle, shape (m,), of functions of a phase (rad): from the shape (n,) to (m, n)."""
+    phases = np.linspace(0.0, 2.0 * math.pi, PHASES)
+    values = functions(phases)
+    largest = values.max(axis=1)
+    for row, highest in enumerate(values.argmax(axis=1)):
+        centre, width = phases[highest], phases[1]
+        for _ in range(FINER):
+            close = np.linspace(centre - width, centre + width, CLOSE)
+            values = functions(close)[row]
+            largest[row] = max(largest[row], values.max())
+            centre, width = close[values.argmax()], 2.0 * width / CLOSE
+    return largest
+
+
+def sums_of_waves(waves: np.ndarray, phases: np.ndarray) -> Sums:
+    """The Sums, each of the shape (n,), of a plate's packed harmonics, shape (5 h,), at phases (rad), shape (n,)."""
+    return Sums(*sums_at(np.tile(waves, (len(phases), 1)), phases).T)
+
+
 def largest_fall(harmonics: Sequence[float]) -> float:
     """The largest downward acceleration of the plate as a share of a_z, for the packed numbers of harmonics."""
     if len(harmonics) == 0:
         return 1.0
-    waves, centre, width = np.array(harmonics, dtype=np.float64), math.pi, math.pi
-    for _ in range(FINER):
-        phases = np.linspace(centre - width, centre + width, PHASES)
-        falls = -np.cos(phases) - Sums(*sums_at(np.tile(waves, (PHASES, 1)), phases).T).az
-        centre, width = phases[np.argmax(falls)], 2.0 * width / PHASES
-    return float(falls.max())
+    waves = np.array(harmonics, dtype=np.float64)
+    (largest,) = largest_values(lambda phases: [-1.0] * (np.cos(phases) + sums_of_waves(waves, phases).az)[None])
+    return float(largest)
+
+
+def peaks(waves: np.ndarray, shift: float) -> Peaks:
+    """The Peaks of a plate, for its packed harmonics, shape (5 h,), and its phase shift (rad)."""
+    if len(waves) == 0:
+        return Peaks(1.0, 1.0, 1.0, 1.0, 1.0)
+
+    def sizes(phases: np.ndarray) -> np.ndarray:
+        added = sums_of_waves(waves, phases)
+        along, normal = np.cos(phases + shift), np.cos(phases)
+        swing = np.sin(phases + shift) + added.vx
+        return np.abs([along + added.x, normal + added.z, swing, along + added.ax, normal + added.az])
+
+    return Peaks(*largest_values(sizes))
 
 
 def motion(a_x: float, a_z: float, omega: float, shift: float, harmonics: np.ndarray, phase: np.ndarray) -> dict:
@@ -300,7 +335,7 @@ def keeps_direction(c, begin, end, turn):
     """
     if has_harmonics(c):
         return begin * end > 0.0 and abs(begin) + abs(end) > c.bounds.pull_rate * turn
-    return begin * end > 0.0
+    return begin * end > 0.0 and turn < math.pi
 
 
 def recurrence(n: int, *, harmonics: bool) -> list[str]:

@@ -23,14 +23,15 @@ EVENT_KINDS = ("impact", "separation", "slip reversal", "stick", "slip", "tensio
 
 # Columns of the results of runs: the status code, numbers of events and of impacts, the time with contact force (s),
 # the largest gap (m), numbers of computed and of repeated contact steps; the largest speed of approach at an impact
-# (m/s) and the largest contact force (N) between the last two times of a run, 0 where there is none; the numbers of
+# (m/s) and the largest contact force (N) from the time `since` of the Record on, 0 where there is none; the numbers of
 # times with a sample and of distances at which the part has arrived.
 CODE, EVENTS, IMPACTS, CONTACT_TIME, MAX_GAP, STEPS, REPEATS, IMPACT_SPEED, PEAK_FORCE, SAMPLED, ARRIVED = range(11)
 RESULTS = 11
 
 # Arrays to fill for one run: `samples`, shape (k, 6), at the `times` (s), shape (k,); times (s) and kinds of the first
-# m events, shape (m,); `arrivals` (s) at the `distances` (m), shape (d,); `results`, shape (11,).
-Record = namedtuple("Record", "times samples event_times event_kinds distances arrivals results")
+# m events, shape (m,); `arrivals` (s) at the `distances` (m), shape (d,); `results`, shape (11,). Impact speeds and
+# forces count from the time `since` (s) on.
+Record = namedtuple("Record", "times since samples event_times event_kinds distances arrivals results")
 # A piece of a run: the workspace, the first row of the series of a contact step in it, the vertical.Motion at the
 # beginning of the piece, the vertical.Piece, and the time (s) at which it begins.
 Step = namedtuple("Step", "series at motion piece begin")
@@ -85,12 +86,6 @@ def record_end(record, step, after):
         record_event(record, time, TENSION_ENDS if step.motion.pulled else TENSION_BEGINS)
 
 
-@compiled_inline
-def last_times(record):
-    """The last two times (s) of a run; 0 if there is one only."""
-    return record.times[-2] if record.times.size > 1 else 0.0, record.times[-1]
-
-
 @compiled_into_callers
 def count_piece(c, step, record):
     """Add a piece to the statistics of a run."""
@@ -104,7 +99,7 @@ def count_piece(c, step, record):
 def count_flight(c, step, record):
     """Add a flight to the statistics of a run."""
     piece, results = step.piece, record.results
-    since, end = last_times(record)
+    since, end = record.since, record.times[-1]
     highest = highest_gap(flight_from(c, step.motion), min(piece.duration, end - step.begin))
     results[MAX_GAP] = max(results[MAX_GAP], highest)
     if step.begin + piece.duration < end:
@@ -117,7 +112,7 @@ def count_flight(c, step, record):
 def count_contact(c, step, record):
     """Add a contact step to the statistics of a run."""
     motion, piece, results = step.motion, step.piece, record.results
-    since, end = last_times(record)
+    since, end = record.since, record.times[-1]
     results[REPEATS if piece.repeated else STEPS] += 1
     if motion.pulled and c.tension == TENSION_CLIP:
         return
@@ -133,6 +128,8 @@ def count_contact(c, step, record):
 def end_record(record, status, feeding):
     """Write the status of a run into its Record, and NaN where there is no result."""
     record.results[CODE] = status
+    # The durations of the pieces may add up to slightly more than the run.
+    record.results[CONTACT_TIME] = min(record.results[CONTACT_TIME], record.times[-1])
     if status != OK:
         record.results[IMPACT_SPEED] = record.results[PEAK_FORCE] = math.nan
     if not feeding:

@@ -25,6 +25,7 @@ def integrate(
     event_kinds: np.ndarray | None = None,
     distances: np.ndarray | None = None,
     arrivals: np.ndarray | None = None,
+    since: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Follow parts until the last of their `times` and sample them there.
 
@@ -42,6 +43,8 @@ def integrate(
     distances : float64, shape (d,), m along the track, ascending, > 0
     arrivals : float64, shape (n, d), filled with the first times (s) at which a part is at each distance, to a small
         part of a cycle; NaN for distances that it does not reach
+    since : float64, shape (n,), s, from which impact speeds and forces count; by default the last but one of the
+        `times`, or 0 where there is one only
 
     Returns
     -------
@@ -54,8 +57,10 @@ def integrate(
         event_times, event_kinds = np.empty((n, 0)), np.empty((n, 0), np.int8)
     if distances is None or arrivals is None:
         distances, arrivals = np.empty(0), np.empty((n, 0))
+    if since is None:
+        since = np.ascontiguousarray(times[:, -2]) if k > 1 else np.zeros(n)
     # Plain tuples, because numba takes several microseconds per call to find the type of a named tuple.
-    records = (times, samples, event_times, event_kinds, arrivals, results)
+    records = (times, since, samples, event_times, event_kinds, arrivals, results)
     # `follow` expects results of zero.
     follow(parameters, (tolerance, feeding, reuse), records, distances, contact.workspace(repeated_steps.PLACES))
     return samples, results
@@ -76,14 +81,14 @@ def follow(parameters, options, records, distances, series):
     loop over the runs is here for the same reason: as a function of its own, it would take 3 s more to compile.
     """
     tolerance, feeding, reuse = options
-    times, samples, event_times, event_kinds, arrivals, results = no_refcount(records)
+    times, since, samples, event_times, event_kinds, arrivals, results = no_refcount(records)
     series, distances = no_refcount((series, distances))
     for i in range(parameters.shape[0]):
         c = contact.constants(parameters[i], tolerance)
         repeated_steps.forget(series)
         motion, clock = pieces.begin(c, parameters[i, Z0], parameters[i, VZ0])
         record = no_refcount(
-            Record(times[i], samples[i], event_times[i], event_kinds[i], distances, arrivals[i], results[i])
+            Record(times[i], since[i], samples[i], event_times[i], event_kinds[i], distances, arrivals[i], results[i])
         )
         record.results[MAX_GAP] = max(motion.q, 0.0)
         horizontal, block = Horizontal(0.0, 0.0, 0.0), first_block()

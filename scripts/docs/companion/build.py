@@ -73,11 +73,14 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
     Raises
     ------
     JobError
-        if a table is not a state map
+        if a table is not a state map, or if the plate's motion has harmonics, which the page does not compute
     ValueError
         if a file cannot be inserted into page.html
     """
     own = settings["companion"]
+    models = [settings["model"], *own["presets"].values(), *(table.attrs["model"] for table in maps)]
+    if any(model.get("harmonics") for model in models):
+        raise JobError("the interactive page draws no harmonics of the plate; leave model.harmonics out to make it")
     data = {
         # The static friction coefficient is null where it equals the friction coefficient.
         "model": {name: settings["model"].get(name) for name in PARAMETERS},

@@ -1,12 +1,11 @@
 """Fig. 8: feeding velocities for several initial heights, paper's method and converged solution side by side."""
 
-import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from conveyor import conveyor_motion
+from conveyor import plate_peaks
 from figures import style
 from pipeline import grid
 
@@ -17,11 +16,9 @@ DIGITS = 2  # of the longest flight, in excitation cycles, by which motions with
 
 def plate_velocity(sweep: pd.DataFrame) -> tuple[list[float], list[float]]:
     """End points of the straight line of the plate's largest velocity (m/s) over the amplitude (m/s²)."""
-    model = sweep.attrs["model"]
     ends = [sweep.acceleration.min(), sweep.acceleration.max()]
-    cycle = np.linspace(0.0, 1.0 / model["frequency"], 721)
-    conveyors = [grid.conveyor_and_start(model | {"acceleration": end})[0] for end in ends]
-    return ends, [conveyor_motion(conveyor, cycle)["vx"].max() for conveyor in conveyors]
+    _, conveyors = grid.product({"acceleration": ends}, sweep.attrs["model"])
+    return ends, plate_peaks(conveyors).vx.tolist()
 
 
 def unsettled(sweep: pd.DataFrame) -> tuple[float, float] | None:

@@ -21,6 +21,7 @@ from conveyor import (
     parameter_table,
     periodic_orbit,
     plate_heights,
+    plate_peaks,
     simulate,
     sweep,
     throw_number,
@@ -28,6 +29,7 @@ from conveyor import (
 )
 from conveyor.analysis import stroboscopic_map
 from conveyor.methods import scipy_integrators
+from conveyor.solver import contact, plate
 from conveyor.solver.model import pack
 
 DURATION = 0.04  # s; later, chaos may have amplified rounding errors
@@ -335,3 +337,43 @@ def test_what_cannot_take_harmonics_says_so():
     ):
         with pytest.raises(ValueError, match="no harmonics"):
             refuses()
+
+
+def test_peaks_of_the_plate_are_those_of_its_dense_motion():
+    """The speed along the track; accelerations and displacements along the track and normal to it, combined."""
+    generator = np.random.default_rng(5)
+    for _ in range(20):
+        conveyor = random_conveyor(generator)
+        times = np.linspace(0.0, 1.0 / conveyor.frequency, 20_001)
+        motion = conveyor_motion(conveyor, times)
+        peaks = plate_peaks(parameter_table(conveyor, psi0=[0.0, 1.0]))
+        assert peaks.vx == pytest.approx(np.abs(motion["vx"]).max(), rel=1e-6)
+        displacement = math.hypot(np.abs(motion["x"]).max(), np.abs(motion["z"]).max())
+        assert peaks.displacement == pytest.approx(displacement, rel=1e-6)
+        pulled = np.array([accelerations(conveyor, t) for t in times[::10]])
+        assert peaks.acceleration == pytest.approx(math.hypot(*np.abs(pulled).max(axis=0)), rel=1e-4)
+
+
+def test_peaks_of_a_pure_plate_are_its_amplitudes():
+    table = parameter_table(Conveyor(phase_shift=0.7), acceleration=[20.0, 50.0], frequency=[40.0, 60.0])
+    peaks, omega = plate_peaks(table), 2.0 * math.pi * table["frequency"]
+    assert (peaks.acceleration == table["acceleration"]).all()
+    assert (peaks.displacement == table["acceleration"] / omega**2).all()
+    assert peaks.vx == pytest.approx(table["acceleration"] * math.cos(Conveyor().angle) / omega, rel=1e-15)
+
+
+def test_the_pull_keeps_its_direction_where_it_is_said_to():
+    """Whatever two phases: between them, also through more than half a cycle, the pull has one sign."""
+    c = contact.constants(pack(Conveyor(phase_shift=0.4), Start()), 1e-8)
+
+    def pull(phase):
+        return plate.pull_share(c, math.sin(phase), math.cos(phase))
+
+    kept = 0
+    for begin in np.linspace(0.0, 6.2, 40):
+        for turn in np.linspace(0.05, 6.2, 60):
+            if plate.keeps_direction(c, pull(begin), pull(begin + turn), turn):
+                signs = np.sign([pull(begin + share * turn) for share in np.linspace(0.0, 1.0, 200)])
+                assert abs(signs.sum()) == len(signs), (begin, turn)
+                kept += 1
+    assert kept > 100

@@ -70,11 +70,13 @@ def find_places(conveyors: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 
 class AttractingOrbits(NamedTuple):
-    """m periodic orbits, each with a trapping region. The orbits of one conveyor are adjacent."""
+    """m periodic orbits, most with a trapping region. The orbits of one conveyor are adjacent."""
 
     conveyors: np.ndarray  # float64, shape (m, 16), packed, their phases and initial conditions zero
     centres: np.ndarray  # float64, shape (m, 2), δ (m) and Y (m/s) of a point at pieces.BEGIN_OF_CYCLE
-    factors: np.ndarray  # float64, shape (m, 3), upper triangle of R: the trapping region is |R (x - centre)| ≤ 1
+    factors: (
+        np.ndarray
+    )  # float64, shape (m, 3), upper triangle of R: the trapping region is |R (x - centre)| ≤ 1, inf: none
     periods: np.ndarray  # int64, shape (m,), excitation cycles
     flights: np.ndarray  # float64, shape (m,), s, longest flight
 

@@ -9,16 +9,16 @@ A label depends only on the conveyor and the initial condition. Trajectories on 
 attractors (see `search`). A trajectory that has reached the trapping region of a periodic orbit, or stays in a chaotic
 set, need not be followed further.
 
-A run that failed may hand `classify` any state; such a trajectory is undecided.
+A run that failed hands `classify` a state of NaN; such a trajectory is undecided.
 """
 
 import math
 
 import numpy as np
 
-from ...arguments import MOST_CYCLES, check_count, check_threads, check_tolerance
+from ...arguments import MOST_CYCLES, check_count, check_flag, check_threads, check_tolerance, check_type
 from ...columns import Columns
-from ...packing import rows_and_shape
+from ...packing import check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
 from ...solver.model import FREQUENCY
@@ -73,7 +73,9 @@ def classify(
     """
     cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
     tolerance, threads = check_tolerance(tolerance), check_threads(threads)
-    parameters, shape = rows_and_shape(parameters)
+    parameters, shape = check_rows(parameters)
+    check_type("attractors", attractors, AttractorTable)
+    exponents = check_flag("exponents", exponents)
     n = len(parameters)
     trajectories, table_rows = new_trajectories(n), attractors.rows_of(parameters)
 

@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from ...packing import rows_and_shape
+from ...arguments import MOST_CYCLES, check_count, check_flag, check_number, check_threads, check_tolerance
+from ...packing import check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
 from . import sampling
@@ -31,13 +32,14 @@ def find_attractors(
 ) -> AttractorTable:
     """The attractors that trajectories from sampled initial conditions lead to, on each conveyor of a table.
 
-    `classify` is faster with them. They are numerical results: an attractor with a small basin may be missing.
+    `classify` is faster with them. They are numerical results: an attractor with a small basin may be missing, and so
+    may one that is not reached within `most` cycles.
 
     Parameters
     ----------
     parameters : from `parameter_table`, of any shape; their initial conditions do not matter
     cycles : excitation cycles after which the search for a period ends, as in `classify`
-    orbits : whether trapping regions of periodic orbits are wanted; each takes some thousand cycles
+    orbits : whether periodic orbits are wanted; the trapping region of one takes some thousand cycles
     most : excitation cycles that end the search for the chaotic sets of a conveyor, and the search for its orbits; at
         most, and by default, SEARCHES times `cycles`
     tolerance, threads, progress : as in `classify`
@@ -55,8 +57,10 @@ def find_attractors(
     >>> classify(parameters, attractors=attractors).state.tolist()
     ['first', 'second']
     """
-    conveyors, _ = distinct_rows(rows_and_shape(parameters)[0])
-    most = min(SEARCHES * cycles, math.inf if most is None else most)
+    conveyors, _ = distinct_rows(check_rows(parameters)[0])
+    cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
+    most = SEARCHES * cycles if most is None else min(SEARCHES * cycles, check_number("most", most, 0.0, math.inf))
+    tolerance, threads, orbits = check_tolerance(tolerance), check_threads(threads), check_flag("orbits", orbits)
     attractors = [NO_ATTRACTORS] * len(conveyors)
 
     def work(begin, end):

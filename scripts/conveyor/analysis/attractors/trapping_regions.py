@@ -1,4 +1,4 @@
-"""Attracting periodic orbits of a conveyor, each with a trapping region from which all motions end in the orbit.
+"""Attracting periodic orbits of a conveyor, most with a trapping region from which all motions end in the orbit.
 
 The stroboscopic map is a homeomorphism of the plane. If the image of a closed curve lies inside another curve, so does
 the image of all that it surrounds, and only points of the curve need checking. The curves are ellipses around a point
@@ -41,6 +41,7 @@ FASTEST, SLOW, SLOWEST = 1e-4, 0.98, 0.9995
 REFINEMENTS = 4  # steps of Newton's iteration
 FAR = 0.01  # in g/ω² and g/ω; if Newton's iteration moves farther than this, it has left the orbit
 LONGEST = 8  # excitation cycles, longest period of an orbit with a trapping region
+NO_REGION = np.full(3, math.inf)  # the factor of an orbit without a trapping region, in which no state lies
 
 
 @compiled
@@ -204,10 +205,49 @@ def find_trapping_region(
     return ((centre, factor / radius) if radius >= SMALLEST else None), spent
 
 
+def is_near(state: np.ndarray, others: np.ndarray, unit: np.ndarray) -> bool:
+    """Whether a state, shape (2,), is nearer than SMALLEST to one of other states, shape (n, 2)."""
+    return bool((np.abs((others - state) / unit).max(axis=1) < SMALLEST).any())
+
+
+def add_without_region(
+    orbits: AttractingOrbits,
+    candidates: list[tuple[np.ndarray, int, float]],
+    at_top: np.ndarray,
+    conveyor: np.ndarray,
+    tolerance: float,
+) -> AttractingOrbits:
+    """The table of a conveyor's orbits with those candidates that attract, differ from its orbits and from each other.
+
+    candidates : state at pieces.BEGIN_OF_CYCLE, period and longest flight of each
+    at_top : the conveyor with the phase pieces.BEGIN_OF_CYCLE
+    """
+    c, unit = contact.constants(conveyor, tolerance), np.array(length_and_speed_units(conveyor))
+    known, count = np.empty((0, 2)), len(orbits.periods)
+    for state, period, flight in candidates:
+        if is_near(state, known, unit):
+            continue
+        centre = np.array([state[0], contact_law.smooth_speed(c, state[0], state[1])])
+        refined = refine_orbit(at_top, tolerance, centre, period)
+        if refined is None or not spectral_radius(refined[1]) < 1.0:
+            continue
+        centre = refined[0]
+        state = np.array([centre[0], contact_law.speed_of_approach(c, centre[0], centre[1])])
+        status, strobes, _ = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
+        reached = [convergence.find_reached_orbit(c, strobe, orbits, 0, count) >= 0 for strobe in strobes]
+        if status == OK and not any(reached) and not is_near(state, known, unit):
+            known = np.concatenate([known, strobes])
+            orbits = append_row(orbits, conveyor, centre, NO_REGION, period, flight)
+    return orbits
+
+
 def find_attracting_orbits(
     parameters: np.ndarray, sampled: Trajectories, chaotic: ChaoticSets, cycles: int, tolerance: float, *, most: int
 ) -> AttractingOrbits:
-    """The attracting orbits of a conveyor, shape (16,), that trajectories reach, each with a trapping region.
+    """The attracting orbits of a conveyor, shape (16,), that trajectories reach.
+
+    Orbits with a trapping region come first. Orbits of more than LONGEST cycles, orbits that attract too slowly, and
+    orbits for which no cycles are left, have none.
 
     Parameters
     ----------
@@ -218,19 +258,25 @@ def find_attracting_orbits(
     """
     at_top, unit = parameters.copy(), np.array(length_and_speed_units(parameters))
     at_top[PSI0] = BEGIN_OF_CYCLE
-    seen, orbits, left = np.empty((0, 2)), NO_ATTRACTORS.orbits, most
+    constants = contact.constants(parameters, tolerance)
+    seen, orbits, left, without_region = np.empty((0, 2)), NO_ATTRACTORS.orbits, most, []
 
     def add(state: np.ndarray, period: int, flight: float) -> None:
         nonlocal seen, orbits, left
-        if left <= 0 or period > LONGEST or (np.abs((seen - state) / unit).max(axis=1) < SMALLEST).any():
+        if is_near(state, seen, unit):
             return
-        status, strobes, _ = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
-        if status == OK:
+        around = None
+        if left > 0 and period <= LONGEST:
+            status, strobes, _ = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
+            if status != OK:
+                return
             seen = np.concatenate([seen, strobes])
             around, spent = find_trapping_region(at_top, tolerance, state, period, most=left)
             left -= spent
-            if around is not None:
-                orbits = append_row(orbits, parameters, *around, period, flight)
+        if around is None:
+            without_region.append((state, period, flight))
+        else:
+            orbits = append_row(orbits, parameters, *around, period, flight)
 
     for k in np.flatnonzero(sampled.outcomes == PERIODIC):
         add(sampled.states[k], int(sampled.periods[k]), sampled.flights[k])
@@ -246,8 +292,7 @@ def find_attracting_orbits(
         left -= int(late.followed[0])
         if late.outcomes[0] == NOT_CONVERGED:
             break
-        constants = contact.constants(parameters, tolerance)
         is_new = convergence.find_reached_orbit(constants, late.states[0], orbits, 0, len(orbits.periods)) < 0
         if late.outcomes[0] == PERIODIC and is_new:
             add(late.states[0], int(late.periods[0]), late.flights[0])
-    return orbits
+    return add_without_region(orbits, without_region, at_top, parameters, tolerance)

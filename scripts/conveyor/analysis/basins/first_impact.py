@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...packing import as_rows
+from ...packing import check_rows
 from ...solver import contact
 from ...solver.flight import Flight, next_impact
 from ...solver.jit import compiled
@@ -55,7 +55,7 @@ def first_impacts(parameters: np.ndarray) -> FirstImpact:
     >>> bool(abs(impacts.velocity[0] + 9.81 * impacts.time[0]) < 1e-12)  # free fall
     True
     """
-    return FirstImpact(*find_first_impacts(as_rows(parameters)).T)
+    return FirstImpact(*find_first_impacts(check_rows(parameters)[0]).T)
 
 
 def on_conveyor(parameters: np.ndarray, impacts: FirstImpact) -> np.ndarray:

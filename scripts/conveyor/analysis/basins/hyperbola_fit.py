@@ -8,9 +8,6 @@ bottom. `fit_hyperbola_by_pymoo` searches in all three parameters as the paper d
 from typing import NamedTuple
 
 import numpy as np
-from pymoo.algorithms.soo.nonconvex.cmaes import CMAES
-from pymoo.core.problem import Problem
-from pymoo.optimize import minimize
 from scipy.optimize import least_squares
 
 from .hyperbola import Hyperbola, critical_height, mean_squared_error
@@ -103,7 +100,7 @@ def fit_hyperbola_by_pymoo(
 ) -> Fit:
     """Fit by CMA-ES (Hansen 2016, in pymoo), which learns the direction of the narrow, curved valley.
 
-    ValueError if the data or the bounds cannot be used.
+    ValueError if the data or the bounds cannot be used, ModuleNotFoundError without the extra `fit`.
 
     Parameters
     ----------
@@ -121,6 +118,13 @@ def fit_hyperbola_by_pymoo(
     >>> round(fit.parameters.A, 6), round(fit.parameters.B, 4)
     (0.005, 1.0)
     """
+    try:
+        from pymoo.algorithms.soo.nonconvex.cmaes import CMAES
+        from pymoo.core.problem import Problem
+        from pymoo.optimize import minimize
+    except ModuleNotFoundError as error:
+        message = 'fit_hyperbola_by_pymoo needs pymoo; install it in the folder of this project by pip install ".[fit]"'
+        raise ModuleNotFoundError(message, name=error.name) from None
     acceleration, height = check_data(acceleration, height, bounds["B"])
     low, high = np.array([bounds[name] for name in Hyperbola._fields], dtype=np.float64).T
     # In the unit cube and in units of the data's variance, which suit the algorithm's own scales and tolerances.

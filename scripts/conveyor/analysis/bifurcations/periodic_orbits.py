@@ -209,7 +209,7 @@ def settled_orbit(
     >>> orbit.period, orbit.stable
     (2, True)
     """
-    parameters = as_rows(parameters)
+    (parameters,), _ = check_rows(parameters)
     row, end = with_amplitude(parameters, acceleration), np.array(state, dtype=np.float64)
     status, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, end, cycles)
     if status != OK:

@@ -11,7 +11,7 @@ import numpy as np
 from ... import arguments
 from ...arguments import LARGEST_COORDINATE, MOST_BLOCKS, MOST_CYCLES, MOST_VALUES
 from ...columns import Columns
-from ...packing import as_rows, check_rows
+from ...packing import check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
 from ...solver import contact, contact_law
@@ -39,35 +39,30 @@ SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs fr
 
 
 @compiled
-def stretches_of(parameters, state, tolerance, phase, transient, cycles):
-    """Follow a trajectory, and the stretching of its perturbations in each cycle.
+def fill_stretches(parameters, state, tolerance, phase, transient, stretches, contact_times):
+    """Follow a trajectory, and the stretching of its perturbations in each cycle; a code of status.STATUS.
 
     Parameters
     ----------
     parameters : float64, shape (16,)
     state : float64, shape (2,), δ (m) and v (m/s) at the `phase` (rad); replaced by the last state
     tolerance : of the contact steps
-    transient, cycles : excitation cycles that are discarded, and counted
-
-    Returns
-    -------
-    status : code of status.STATUS
-    stretches : float64, shape (cycles, 2), see stretching; NaN from a failure on
-    contact_times : float64, shape (cycles,), s; NaN from a failure on
+    transient : excitation cycles that are discarded
+    stretches : float64, shape (cycles, 2), see stretching, to fill up to a failure
+    contact_times : float64, shape (cycles,), s, to fill up to a failure
     """
     c = contact.constants(parameters, tolerance)
     series = contact.workspace()
     features = np.zeros(stroboscopic_map.FEATURES)
     discarded = np.empty(2)
-    stretches, contact_times = np.full((cycles, 2), np.nan), np.full(cycles, np.nan)
     # Velocities count in units of ω × length, which makes both directions comparable.
     tangent = np.eye(2)
-    for n in range(-transient, cycles):
+    for n in range(-transient, len(stretches)):
         for k in range(2):
             tangent[k, 1] *= c.omega
         status = stroboscopic_map.advance(c, series, state, phase, c.period, tangent, features)
         if status != OK:
-            return status, stretches, contact_times
+            return status
         for k in range(2):
             tangent[k, 1] /= c.omega
         logs = stretches[n] if n >= 0 else discarded
@@ -77,7 +72,7 @@ def stretches_of(parameters, state, tolerance, phase, transient, cycles):
             tangent[1, 0], tangent[1, 1] = -tangent[0, 1], tangent[0, 0]
         if n >= 0:
             contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
-    return OK, stretches, contact_times
+    return OK
 
 
 def lyapunov_spectrum(
@@ -135,15 +130,15 @@ def lyapunov_spectrum(
             raise ValueError(f"states must have the shape ({len(parameters)}, 2), got {states.shape}")
         if (np.abs(states) > LARGEST_COORDINATE).any():  # NaN is the state of a motion that failed
             raise ValueError(f"states must lie in [{-LARGEST_COORDINATE:g}, {LARGEST_COORDINATE:g}]")
-    stretches = np.empty((len(parameters), blocks * cycles, 2))
-    contact_times = np.empty((len(parameters), blocks * cycles))
+    stretches = np.full((len(parameters), blocks * cycles, 2), np.nan)
+    contact_times = np.full((len(parameters), blocks * cycles), np.nan)
     codes = np.zeros(len(parameters), dtype=np.int64)
     phases = np.full(len(parameters), BEGIN_OF_CYCLE) if begin_of_cycle else parameters[:, PSI0]
 
     def work(begin, end):
         for i in range(begin, end):
-            stretched = stretches_of(parameters[i], states[i], tolerance, phases[i], transient, blocks * cycles)
-            codes[i], stretches[i], contact_times[i] = stretched
+            own = stretches[i], contact_times[i]
+            codes[i] = fill_stretches(parameters[i], states[i], tolerance, phases[i], transient, *own)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
     period = 1.0 / parameters[:, FREQUENCY]
@@ -154,7 +149,8 @@ def lyapunov_spectrum(
     # Where both exponents are equal, the first tangent vector may have grown a little less.
     order = np.argsort(-values, axis=1, kind="stable")
     values, errors = (np.take_along_axis(numbers / period[:, None], order, axis=1) for numbers in (values, errors))
-    contact_fraction = contact_times.mean(axis=1) / period
+    # The durations of the pieces of a cycle may add up to slightly more than the period.
+    contact_fraction = np.minimum(contact_times.mean(axis=1) / period, 1.0)
     columns = {"lambda_1": values[:, 0], "lambda_2": values[:, 1], "stderr": errors[:, 0]}
     columns |= {"contact_fraction": contact_fraction, "status": np.array(STATUS, dtype=object)[codes]}
     return Columns({name: column.reshape(shape) for name, column in columns.items()})
@@ -265,7 +261,8 @@ def lyapunov_spectrum_on_attractors(
     >>> (spectrum.stderr == 0.0).tolist()  # a periodic orbit, and chaos
     [True, False]
     """
-    parameters = as_rows(parameters)
+    parameters, _ = check_rows(parameters)
+    tolerance, threads = arguments.check_tolerance(tolerance), arguments.check_threads(threads)
     states = stroboscopic_map.initial_states(parameters, tolerance)
     logarithms, contact_times = np.empty((len(parameters), 2)), np.empty(len(parameters))
     periods = np.zeros(len(parameters), dtype=np.int64)
@@ -287,7 +284,7 @@ def lyapunov_spectrum_on_attractors(
     time = np.maximum(periods, 1) / parameters[:, FREQUENCY]
     lambda_1, lambda_2 = (logarithms / time[:, None]).T
     spectrum = {"lambda_1": lambda_1, "lambda_2": lambda_2, "stderr": np.zeros(len(time))}
-    spectrum["contact_fraction"] = contact_times / time
+    spectrum["contact_fraction"] = np.minimum(contact_times / time, 1.0)
     spectrum["status"] = np.full(len(time), STATUS[OK], dtype=object)
     for name, values in followed.items():
         spectrum[name][periods == 0] = values

@@ -7,7 +7,7 @@ from conveyor import Conveyor, Start, ensemble, initial_states, parameter_table,
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors import attractor_table, chaotic_sets, convergence, labels, sampling, search
 from conveyor.analysis.bifurcations import bifurcation_diagram
-from conveyor.solver.model import PSI0, Z0, pack
+from conveyor.solver.model import PSI0, VZ0, Z0, pack
 from pipeline import grid
 
 KNOWN = {
@@ -54,7 +54,7 @@ def test_slow_transients_are_followed():
 
 def test_part_that_cannot_be_followed_is_undecided():
     row = pack(Conveyor(), Start())
-    row[0] = np.nan
+    row[[Z0, VZ0]] = np.nan
     assert labels.classify(row[None]).state[0] == "undecided"
 
 
