@@ -31,6 +31,7 @@ def run(project, *arguments, path):
 
 def test_slurm_gets_the_jobs(edited, tmp_path):
     """A dry run would hide an invalid profile, so a scheduler that refuses every job gets the first ones."""
+    pytest.importorskip("snakemake_executor_plugin_slurm")
     project = edited("scripts/orbits/estimates.py", "import numpy as np\n", "import numpy as np  # changed\n")
     calls, commands = tmp_path / "calls", tmp_path / "commands"
     commands.mkdir()
