@@ -3,7 +3,6 @@
 import numpy as np
 import pandas as pd
 
-from accuracy.stability_estimates import CASES
 from claims import about_proofs
 from claims.finding import METHODS, Finding, by_method, format_amplitude, onset, single_quantity
 
@@ -136,6 +135,9 @@ def phase_estimate(
 
 def describe_perturbations(estimates: pd.DataFrame) -> str:
     """How the estimate for a periodic motion depends on the perturbation, in words."""
+    # Not at the top, because captions import this module, and Numba takes most of their time.
+    from accuracy.stability_estimates import CASES
+
     rows = estimates[(estimates.panel == "perturbation") & (estimates.case == "orbit_phase")]
     by_euler, converged = (rows[rows.estimator == method].value for method in ("euler", "event"))
     acceleration = CASES["orbit_phase"]["acceleration"]

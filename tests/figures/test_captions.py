@@ -1,5 +1,9 @@
 """Captions and pages: every number in them comes from a table."""
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -58,6 +62,12 @@ def test_captions_name_harmonics_of_the_plate(orders, end):
     text = captions.caption("Some runs.\n", "fig01", {"runs": table}, {})
     assert text.startswith("Some runs.") and text.endswith(f"{end}\n")
     assert ("harmonic" in text) == bool(orders)
+
+
+def test_a_caption_without_numbers_of_its_own_imports_no_numba():
+    """There is one job per caption, and Numba would take most of its time."""
+    code = "import sys, make, figures.captions; sys.exit('numba' in sys.modules)"
+    subprocess.run([sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": str(ROOT / "scripts")}, check=True)
 
 
 def test_titles_have_no_typed_number():
