@@ -188,7 +188,7 @@ def test_figures_of_the_paper_are_drawn_for_another_conveyor_if_named(tmp_path):
     run = planned({"prefix": "mine", "model": {"friction": 0.2}}, tmp_path, *targets)
     assert run.returncode == 0, run.stdout
     for figure in figures:
-        assert f"Draw {figure}\n" in run.stdout
+        assert f"output: figures/mine/{figure}.pdf" in run.stdout
 
 
 def test_a_figure_that_takes_no_harmonics_says_so(tmp_path):
