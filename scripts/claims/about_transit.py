@@ -5,7 +5,7 @@ import pandas as pd
 
 from claims.finding import NONE, Finding
 from conveyor.linear_algebra import fit_line
-from operating.regimes import CHAOS, SEVERAL
+from operating.regimes import BESIDE, CHAOS, SEVERAL
 
 
 def exponents(lengths: pd.DataFrame, regime: str) -> dict[float, float]:
@@ -18,7 +18,25 @@ def exponents(lengths: pd.DataFrame, regime: str) -> dict[float, float]:
     }
 
 
-def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame) -> Finding:
+def describe_regimes(regimes: pd.DataFrame) -> str:
+    """Where all motions are chaotic, and where chaos exists beside other motions, in words."""
+    beside = regimes[regimes.regime == BESIDE]
+    last = regimes.iloc[-1]
+    texts = [f"From {last.begin:g} m/s² on, all motions are chaotic"] if last.regime == CHAOS else []
+    if len(beside):
+        runs = format_intervals(beside.begin, beside.end)
+        texts.append(f"At {runs} m/s², chaos exists beside other motions, and the initial condition decides")
+    return ". ".join(texts)
+
+
+def format_intervals(begin: pd.Series, end: pd.Series) -> str:
+    """Intervals of amplitudes (m/s²) in words."""
+    return ", ".join(
+        f"{low:g}" if low == high else f"{low:g} to {high:g}" for low, high in zip(begin, end, strict=True)
+    )
+
+
+def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame, regimes: pd.DataFrame) -> Finding:
     """Whether mean velocities in chaos depend on the initial conditions, and how the spread falls with the length."""
     known = drift.dropna(subset=["velocity_1", "velocity_2"])
     apart = (known.velocity_1 - known.velocity_2).abs() / np.hypot(known.velocity_1_stderr, known.velocity_2_stderr)
@@ -33,8 +51,9 @@ def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame) -> Finding:
     if len(known):
         note += (
             f". The velocities are compared at {known.acceleration.min():g} to {known.acceleration.max():g} m/s², "
-            "where all motions are chaotic. Where chaos exists beside other motions, the initial condition decides"
+            "where all motions are chaotic"
         )
+    note = ". ".join(filter(None, [note, describe_regimes(regimes)]))
     numbers = {
         "sets": float(apart.max()) if len(apart) else NONE,
         "exponent": farthest,

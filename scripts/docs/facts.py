@@ -72,22 +72,27 @@ def summarize_speed(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
     }
 
 
-def evenest_from(varied: pd.DataFrame) -> float | None:
-    """The lowest amplitude (m/s²) from which on parts travel more evenly than at every smaller one; None for none."""
+def evenest_from(varied: pd.DataFrame, onset: float | None) -> float | None:
+    """The lowest amplitude (m/s²) from which on parts travel more evenly than at all below the onset of chaos.
+
+    None if there is no such amplitude, or if the onset is not known.
+    """
+    if onset is None:
+        return None
     spread = varied.sort_values("acceleration").set_index("acceleration").spread
-    later, before = spread[::-1].cummax()[::-1], spread.cummin().shift()
-    below = later.index[later < before]
-    return float(below.min()) if len(below) else None
+    later = spread[::-1].cummax()[::-1]
+    even = later.index[(later < spread[spread.index < onset].min()) & (later.index >= onset)]
+    return float(even.min()) if len(even) else None
 
 
-def summarize_transit(transit: pd.DataFrame, lengths: pd.DataFrame) -> dict[str, Any]:
+def summarize_transit(transit: pd.DataFrame, lengths: pd.DataFrame, onset: float | None) -> dict[str, Any]:
     """Where identical parts differ most in their velocity, where varied parts differ least, and the track's length."""
     widest = lengths[lengths.regime == SEVERAL].sort_values(["spread", "length"]).acceleration.iloc[-1]
     identical, varied = (transit[transit.population == kind] for kind in POPULATIONS)
     return {
         "uneven": identical.loc[(identical.acceleration - widest).abs().idxmin()].to_dict(),
         "even": varied.loc[varied.spread.idxmin()].to_dict(),
-        "evenest_from": evenest_from(varied),
+        "evenest_from": evenest_from(varied, onset),
         "track": transit.attrs["length"],
         "middle": ENDS[1] - ENDS[0],
         "differences": differences(transit.attrs)["spread"],
@@ -105,6 +110,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
     """
     claims = tables["claims"].set_index("id")
     first_error, second_error, right_readings = claims.paper_method["C22"]
+    onset = accumulation(spectrum=tables["spectrum"], cascade=tables["cascade"])
     return {
         "euler_positive": claims.paper_method["C19"][0],
         "converged_positive": claims.converged["C19"][0],
@@ -119,11 +125,11 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         "longest_period": MAX_PERIOD,
         "epsilon": tables["estimate"].attrs["epsilon"],
         "valley": flat_part(tables["fit"]).B,
-        **accumulation(spectrum=tables["spectrum"], cascade=tables["cascade"]),
+        **onset,
         **names_by_verdict(tables["claims"]),
         **summarize_proofs(tables["certificates"], tables["certified_bifurcations"], tables["certified_chaos"]),
         **summarize_speed(tables),
-        **summarize_transit(tables["transit"], tables["lengths"]),
+        **summarize_transit(tables["transit"], tables["lengths"], onset["accumulation"]),
         "clean": clean_drive.statement_of(tables["drives"]),
     }
 

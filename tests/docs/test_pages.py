@@ -240,3 +240,10 @@ def test_the_article_shows_every_figure_of_the_paper_once_and_in_order():
     text = (TEMPLATES / "article.md").read_text(encoding="utf-8")
     shown = re.findall(r'figure\("(fig\d\d)"\)', text)
     assert shown == [name for name in FIGURES if re.fullmatch(r"fig\d\d", name)]
+
+
+def test_parts_travel_most_evenly_from_an_amplitude_on():
+    """With an onset of chaos at 25 m/s²: at 30 m/s² parts are less even than at 20 m/s²."""
+    varied = pd.DataFrame({"acceleration": [10.0, 20.0, 30.0, 40.0, 50.0], "spread": [1.0, 0.6, 0.9, 0.3, 0.5]})
+    assert facts.evenest_from(varied, 25.0) == 40.0
+    assert facts.evenest_from(varied.assign(spread=[0.1, 0.6, 0.9, 0.3, 0.5]), 25.0) is None
