@@ -5,12 +5,11 @@ FIRST = 256  # sets of parameters of the first round, which fills the ranges
 POINTS = 96  # of each further round
 ROUNDS = 20  # further rounds at most
 ENOUGH = 100.0  # effective number of samples at which a search ends; the ends of an interval move little with more
-SEARCHES, MOST_SEARCHES = 4, 8  # independent ones, at first and at most
-# Effective number of samples from which intervals are given. A quick trial (an effort below 1) gives them with fewer,
-# and the page says so.
-EFFECTIVE, EFFECTIVE_OF_TRIAL = 40.0, 2.0
-# Of what follows from the posterior. A quick trial has fewer; with more, no number would change that a reader sees.
-PARTS = 24  # random initial conditions for each set of parameters and each amplitude
+SEARCHES, MOST_SEARCHES = 3, 5  # independent ones, at first and at most
+# Effective number of samples from which a search has converged: one of the posterior, and one of an evidence.
+EFFECTIVE, EFFECTIVE_OF_EVIDENCE = 40.0, 10.0
+# Of what follows from the posterior. A trial has fewer; with more, no number would change that a reader sees.
+PARTS = 16  # random initial conditions for each set of parameters and each amplitude
 SAMPLES = 256  # of the posterior in the table
 CHECKED = 16  # of these samples are tested against the measurements
 CHECKED_PARTS = 128  # random initial conditions for the density of this test, and as many for the replicates
@@ -27,8 +26,7 @@ def sizes_of(effort: float) -> dict[str, float]:
         "first": max(32, round(effort * FIRST)),
         "points": max(32, round(effort * POINTS)),
         "rounds": max(1, round(effort * ROUNDS)),
-        "enough": effort * ENOUGH,
-        "effective": min(EFFECTIVE if effort >= 1.0 else EFFECTIVE_OF_TRIAL, effort * ENOUGH),
+        "enough": max(EFFECTIVE, effort * ENOUGH),
         "parts": max(8, round(most * PARTS)),
         "samples": max(32, round(most * SAMPLES)),
         "checked": max(2, round(most * CHECKED)),

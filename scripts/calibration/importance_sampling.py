@@ -277,6 +277,8 @@ def monte_carlo_error(
 ) -> np.ndarray:
     """Standard error of a summary by the jackknife over the searches (Efron and Stein 1981), of the summary's shape.
 
+    If one search has all weights, the error is infinite.
+
     weights, search : of all points, and the number of the search that has found each of them, shape (n,)
     summary : function of the weights
     """
@@ -284,6 +286,8 @@ def monte_carlo_error(
     without = []
     for one in searches:
         weights = np.where(search == one, 0.0, all_weights)
+        if weights.sum() == 0.0:
+            return np.full_like(summary(all_weights), math.inf)
         without.append(summary(weights / weights.sum()))
     count = len(searches)
     deviations = np.array(without) - np.mean(without, axis=0)

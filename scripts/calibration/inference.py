@@ -8,26 +8,27 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from tqdm import tqdm
 
-from calibration.credible_intervals import CONFIDENCE, open_ends, quantiles, summarize, with_errors
-from calibration.effort import MOST_SEARCHES, SEARCHES
+from calibration.credible_intervals import open_ends, quantiles, summarize, with_errors
+from calibration.effort import EFFECTIVE, MOST_SEARCHES, SEARCHES
 from calibration.importance_sampling import Sample, monte_carlo_error, pooled, sample
-from calibration.likelihood import Conditions, conditions_of, log_densities, velocities, widths
+from calibration.likelihood import Conditions, conditions_of, deviations, is_known, log_densities, velocities, widths
 from calibration.measurements import Measurement
 from calibration.search_space import LOGARITHMIC, bounds_of, values_at
-from conveyor import UNITS
+from conveyor import UNITS, progress_bar
 from conveyor.elementary import exp, log
 
 DETERMINED, OPEN, NOT_DETERMINED = "determined", "open to one side", "not determined"
-TOO_FEW, DISAGREEING = "too few effective samples", "searches disagree"
-# Further searches follow while the Monte Carlo error of a best value, or of an end of an interval, is more than this
-# share of the interval.
+NOT_CONVERGED = "not converged"
+# Searches agree, and no further one follows, unless the Monte Carlo error of a best value, or of an end of an interval,
+# is more than this share of the interval.
 REPEATABLE = 0.25
 # A set of parameters gets no further parts if even the first ones are this far below the best logarithmic likelihood.
 HOPELESS = 30.0
 # The search first takes measurements for less accurate than they are, so that it finds its way from far away.
 INFLATIONS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0)
-RESOLVED = 1.0 / (1.0 - CONFIDENCE)  # effective number of samples of which one lies outside an interval
+NUMBERS = ("best", "best_error", "low", "low_error", "high", "high_error")
 WIDE = 0.8  # of the searched range: a wider interval determines nothing
 
 
@@ -60,29 +61,38 @@ def log_factors(simulated: np.ndarray, data: Data, settings: dict, inflations: t
     return np.array([log_densities(*arguments, inflation) for inflation in inflations])
 
 
-def search_once(
-    data: Data, settings: dict, number: int, near: np.ndarray | None, threads: int, progress: str | None
-) -> Sample:
+def runs_of_search(data: Data, settings: dict) -> int:
+    """The largest number of runs of one search."""
+    sets = settings["first"] + settings["rounds"] * settings["points"]
+    return sets * len(data.conditions.rows) * settings["parts"]
+
+
+def search_once(data: Data, settings: dict, number: int, near: np.ndarray | None, threads: int, bar: tqdm) -> Sample:
     """The sample of one search; its number makes its random numbers differ from those of the others."""
     best, rounds = -math.inf, 0
+    sd = deviations(data.velocity, data.sd, data.plate, settings["noise"])
 
     def worth(few: np.ndarray) -> np.ndarray:
         nonlocal best
         log_likelihood = log_factors(few, data, settings, INFLATIONS[:1])[0].sum(axis=1)
         best = max(best, log_likelihood.max())
-        return log_likelihood > best - HOPELESS
+        known = is_known(few, data.velocity, data.of, sd, data.plate)
+        return (log_likelihood > best - HOPELESS)[:, None] & ~known
 
     def follow(points: np.ndarray) -> np.ndarray:
         nonlocal rounds
         options = {"parts": settings["parts"], "seed": [settings["seed"], number, rounds]}
         options |= {"threads": threads, "worth": worth}
-        label = progress and f"{progress}: search {number + 1}, round {rounds} of at most {settings['rounds']}"
-        simulated = velocities(values_at(points, settings), data.conditions, settings, **options, progress=label)
+        simulated = velocities(values_at(points, settings), data.conditions, settings, **options)
         rounds += 1
+        bar.update(simulated.size)
         return log_factors(simulated, data, settings, INFLATIONS)
 
     options = {name: settings[name] for name in ("first", "points", "rounds", "enough")}
-    return sample(follow, bounds_of(settings), **options, seed=[settings["seed"], number], near=near)
+    begun = bar.n
+    found = sample(follow, bounds_of(settings), **options, seed=[settings["seed"], number], near=near)
+    bar.total -= runs_of_search(data, settings) - (bar.n - begun)  # the search may have ended early
+    return found
 
 
 def search(
@@ -92,20 +102,23 @@ def search(
     near: np.ndarray | None = None,
     searches: tuple[int, int] = (SEARCHES, MOST_SEARCHES),
     threads: int = 1,
-    progress: str | None = None,
+    bar: tqdm | None = None,
 ) -> Sample:
     """A weighted sample of the posterior from independent searches, until they agree.
 
     near : points of a related posterior, in the coordinates of the search space, shape (n, d)
     searches : their number at first, which share the effective samples that are wanted, and at most
+    bar : progress over all runs of all searches; it counts the runs of the largest number of searches
     """
     first, most = searches
+    bar = progress_bar(total=most * runs_of_search(data, settings), label=None) if bar is None else bar
     own, samples = settings | {"enough": settings["enough"] / first}, []
     while len(samples) < most:
-        samples.append(search_once(data, own, len(samples), near, threads, progress))
+        samples.append(search_once(data, own, len(samples), near, threads, bar))
         posterior = pooled(samples)
-        if len(samples) >= first and agree(posterior, settings):
+        if first <= len(samples) < most and agree(posterior, settings):
             break
+    bar.total -= (most - len(samples)) * runs_of_search(data, settings)
     return posterior
 
 
@@ -149,11 +162,20 @@ def agree(posterior: Sample, settings: dict) -> bool:
     return bool(np.all(errors(posterior, settings) <= REPEATABLE * (summary[:, 2] - summary[:, 1])[:, None]))
 
 
+def has_converged(posterior: Sample, settings: dict) -> bool:
+    """Whether there are enough effective samples, and the searches agree."""
+    return posterior.size >= EFFECTIVE and agree(posterior, settings)
+
+
 def summarize_parameters(posterior: Sample, settings: dict) -> list[dict]:
-    """The rows of the table of parameters."""
+    """The rows of the table of parameters; a search that has not converged has no numbers."""
+    searches = {"effective": posterior.size, "searches": int(posterior.search.max()) + 1}
+    if not has_converged(posterior, settings):
+        nothing = dict.fromkeys((*NUMBERS, "range_low", "range_high"), math.nan) | {"status": NOT_CONVERGED}
+        return [{"parameter": name, "unit": UNITS[name], **nothing, **searches} for name in settings["ranges"]]
     bounds, middle = bounds_of(settings), centre(posterior.points, posterior.weights)
-    summary, deviations = summary_of(posterior, posterior.weights, settings), errors(posterior, settings)
-    rows, reliable = [], posterior.size >= settings["effective"]
+    summary, deviation = summary_of(posterior, posterior.weights, settings), errors(posterior, settings)
+    rows = []
     for column, name in enumerate(settings["ranges"]):
         is_log = name in LOGARITHMIC
         ends = np.tile(middle, (2, 1))
@@ -166,8 +188,6 @@ def summarize_parameters(posterior: Sample, settings: dict) -> list[dict]:
         status = (
             NOT_DETERMINED if is_wide or (open_low and open_high) else OPEN if open_low or open_high else DETERMINED
         )
-        if not np.all(deviations[column] <= REPEATABLE * (high - low)):
-            status = DISAGREEING
         if is_log:
             best, low, high = exp(summary[column])
         # An open end is the bound, beyond which smoothing may reach. The bounds of the damping belong to the best
@@ -177,9 +197,7 @@ def summarize_parameters(posterior: Sample, settings: dict) -> list[dict]:
         if name != "damping":
             low, high = max(low, range_low), min(high, range_high)
         low, high = min(low, best), max(high, best)
-        numbers = with_errors(np.array([best, low, high]), deviations[column], is_log)
-        if not reliable:
-            numbers |= dict.fromkeys(("low", "low_error", "high", "high_error"), math.nan)
+        numbers = with_errors(np.array([best, low, high]), deviation[column], is_log)
         rows.append(
             {
                 "parameter": name,
@@ -187,9 +205,8 @@ def summarize_parameters(posterior: Sample, settings: dict) -> list[dict]:
                 **numbers,
                 "range_low": range_low,
                 "range_high": range_high,
-                "status": status if reliable else TOO_FEW,
-                "effective": posterior.size,
-                "searches": int(posterior.search.max()) + 1,
+                "status": status,
+                **searches,
             }
         )
     return rows

@@ -27,6 +27,7 @@ FLOOR = 5e-4
 # Share of measurements that may have any velocity; otherwise one mistake in the file would decide everything.
 OUTLIERS = 0.02
 FIRST = 8  # parts that are followed first
+NEAR = 4.0  # standard deviations within which a velocity is the measured one
 
 
 class Conditions(NamedTuple):
@@ -95,8 +96,8 @@ def velocities(
     values : of parameters of the model, by name, each of shape (n,)
     settings : the box of initial conditions, and `static_friction`, which is at least the friction
     parts : number of parts per set and condition
-    worth : function of the velocities of the first parts, shape (n, k, FIRST), which returns whether a set of
-        parameters is worth following more parts, shape (n,), and whose first parts count several times if it is not
+    worth : function of the velocities of the first parts, shape (n, k, FIRST), which returns whether more parts are
+        worth following, shape (n, k); where they are not, the first ones count several times
     """
     n, k = len(next(iter(values.values()))), len(conditions.rows)
     random = np.random.default_rng(seed)
@@ -123,15 +124,36 @@ def velocities(
     few = follow(sets, of, 0, first, "").reshape(n, k, first)
     means = np.tile(few, -(-parts // first))[..., :parts]
     if first < parts:
-        chosen = np.flatnonzero(worth(few))
-        sets, of = np.repeat(chosen, k), np.tile(np.arange(k), len(chosen))
-        means[chosen, :, first:] = follow(sets, of, first, parts, ", more parts").reshape(-1, k, parts - first)
+        sets, of = np.nonzero(worth(few))
+        means[sets, of, first:] = follow(sets, of, first, parts, ", more parts")
     return means
+
+
+def is_known(few: np.ndarray, measured: np.ndarray, of: np.ndarray, sd: np.ndarray, plate: np.ndarray) -> np.ndarray:
+    """Whether the first parts have one velocity, and it is the measured one, so that more parts tell nothing new.
+
+    Parameters
+    ----------
+    few : velocities under each condition, m/s, shape (n, k, parts)
+    measured, sd, plate : velocities, their standard deviations and the plate's largest velocities, m/s, shape (r,)
+    of : number of the condition of each of them, shape (r,)
+
+    Returns
+    -------
+    known : bool, shape (n, k)
+    """
+    velocity = few.mean(axis=-1)
+    alike = np.ptp(few, axis=-1)[:, of] <= FLOOR * plate
+    own = alike & (np.abs(measured - velocity[:, of]) <= NEAR * sd)
+    known = np.ones(few.shape[:2], dtype=bool)
+    for column, condition in enumerate(of):
+        known[:, condition] &= own[:, column]
+    return known
 
 
 def mean_velocities(rows: np.ndarray, times: np.ndarray, threads: int, progress: str | None) -> np.ndarray:
     """Mean feeding velocity (m/s) between two times (s), shape (n, 2), of a table of parameters, shape (n,)."""
-    options = {"tolerance": TOLERANCE, "threads": threads, "chunk": 256, "progress": progress}
+    options = {"tolerance": TOLERANCE, "threads": threads, "skip": True, "chunk": 256, "progress": progress}
     runs = sample_runs(rows, times, columns=["x"], **options)
     means = (runs.x[:, 1] - runs.x[:, 0]) / (times[:, 1] - times[:, 0])
     return np.where(runs.status == "ok", means, np.nan)

@@ -17,9 +17,11 @@ import math
 
 import numpy as np
 from scipy.stats import rankdata
+from tqdm import tqdm
 
-from calibration.importance_sampling import LEAST, Sample
-from calibration.inference import Data, centre, draw, search
+from calibration.effort import EFFECTIVE_OF_EVIDENCE
+from calibration.importance_sampling import Sample
+from calibration.inference import Data, centre, draw, runs_of_search, search
 from calibration.likelihood import deviations, log_densities, velocities, widths
 from calibration.measurements import Measurement
 from calibration.search_space import values_at
@@ -27,7 +29,7 @@ from conveyor import UNITS
 from conveyor.elementary import log
 from conveyor.linear_algebra import dot, product
 
-SEARCHES_OF_ALTERNATIVE = (2, 2)  # an evidence needs no interval, and hardly differs between searches
+SEARCHES_OF_ALTERNATIVE = (1, 1)  # an evidence needs no interval, and hardly differs between searches
 DECISIVE = (
     20.0  # Bayes factor from which the model without an alternative is rejected ("strong", Kass and Raftery 1995)
 )
@@ -92,24 +94,34 @@ def differs(measured: Measurement, model: dict) -> bool:
     return any(model.get(name) != value for name, value in measured.changed.items())
 
 
-def check_fit(posterior: Sample, data: Data, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict:
-    """The columns of the table of the fit."""
-    drawn = posterior.points[draw(posterior, settings["checked"])]
-    values = values_at(np.vstack([centre(posterior.points, posterior.weights), drawn]), settings)
-    options = {"parts": 2 * settings["checked_parts"], "seed": settings["seed"] + settings["rounds"] + 1}
-    progress = progress and f"{progress}: check"
-    followed = velocities(values, data.conditions, settings, **options, threads=threads, progress=progress)
-    random = np.random.default_rng(settings["seed"])
-    p_values, p_rows, simulated = zip(*(compare(parts, data, settings, random) for parts in followed), strict=True)
-    p_value, p_row = np.mean(p_values), p_rows[0]
-    low, middle, high = np.quantile(simulated[0], [0.05, 0.5, 0.95], axis=0)
-    rows = len(data.velocity)
+def measured_columns(data: Data, settings: dict) -> dict:
+    """The columns of the table of the fit that need no posterior."""
     return {
         "line": [one.line for one in data.measured],
         "acceleration": [one.acceleration for one in data.measured],
         "velocity": data.velocity,
         "changed": [differs(one, settings["model"]) for one in data.measured],
         "sd": deviations(data.velocity, data.sd, data.plate, settings["noise"]),
+    }
+
+
+def runs_of_check(data: Data, settings: dict) -> int:
+    """The number of runs of `check_fit`."""
+    return (1 + settings["checked"]) * len(data.conditions.rows) * 2 * settings["checked_parts"]
+
+
+def check_fit(posterior: Sample, data: Data, settings: dict, *, threads: int = 1) -> dict:
+    """The columns of the table of the fit."""
+    drawn = posterior.points[draw(posterior, settings["checked"])]
+    values = values_at(np.vstack([centre(posterior.points, posterior.weights), drawn]), settings)
+    options = {"parts": 2 * settings["checked_parts"], "seed": settings["seed"] + settings["rounds"] + 1}
+    followed = velocities(values, data.conditions, settings, **options, threads=threads)
+    random = np.random.default_rng(settings["seed"])
+    p_values, p_rows, simulated = zip(*(compare(parts, data, settings, random) for parts in followed), strict=True)
+    p_value, p_row = np.mean(p_values), p_rows[0]
+    low, middle, high = np.quantile(simulated[0], [0.05, 0.5, 0.95], axis=0)
+    rows = len(data.velocity)
+    return measured_columns(data, settings) | {
         "low": low,
         "median": middle,
         "high": high,
@@ -120,36 +132,41 @@ def check_fit(posterior: Sample, data: Data, settings: dict, *, threads: int = 1
     }
 
 
+def settings_of_alternatives(data: Data, settings: dict) -> dict[str, dict]:
+    """The settings of the search with one more parameter, by its name, for each that nobody has stated."""
+    stated = {*settings["ranges"], *(name for one in data.measured for name in one.changed)}
+    enough = {"enough": EFFECTIVE_OF_EVIDENCE}
+    return {
+        name: settings
+        | enough
+        | {"ranges": settings["ranges"] | {name: [settings["model"][name] + end for end in (-difference, difference)]}}
+        for name, difference in settings["alternatives"].items()
+        if name not in stated
+    }
+
+
+def runs_of_alternatives(data: Data, settings: dict) -> int:
+    """The largest number of runs of the searches with one more parameter."""
+    searches = settings_of_alternatives(data, settings).values()
+    return SEARCHES_OF_ALTERNATIVE[1] * sum(runs_of_search(data, own) for own in searches)
+
+
 def compare_alternatives(
-    posterior: Sample, data: Data, settings: dict, *, threads: int = 1, progress: str | None = None
+    posterior: Sample, data: Data, settings: dict, *, threads: int = 1, bar: tqdm | None = None
 ) -> list[dict]:
     """The rows of the table of alternatives: the posterior with one more parameter, against the one without."""
-    stated = {*settings["ranges"], *(name for one in data.measured for name in one.changed)}
     random = np.random.default_rng(settings["seed"])
     rows = []
-    for name, difference in settings["alternatives"].items():
-        if name in stated:
-            continue
-        ends = [settings["model"][name] - difference, settings["model"][name] + difference]
-        own = settings | {"ranges": settings["ranges"] | {name: ends}}
-        # An evidence needs fewer samples than intervals. A search that has not found them underestimates it.
-        own |= {"enough": settings["effective"], "rounds": (settings["rounds"] + 1) // 2}
-        near = None
-        if posterior.size >= LEAST * len(settings["ranges"]):
-            # What is found without the alternative shows where to begin, with any value of it.
-            known = posterior.points[draw(posterior, settings["samples"])]
-            near = np.column_stack([known, random.uniform(*ends, len(known))])
-        label = progress and f"{progress}: {name.replace('_', ' ')}"
-        other = search(data, own, near=near, searches=SEARCHES_OF_ALTERNATIVE, threads=threads, progress=label)
-        gain = other.log_evidence - posterior.log_evidence
-        rows.append(
-            {
-                "parameter": name,
-                "unit": UNITS[name],
-                "value": float(values_at(centre(other.points, other.weights)[None], own)[name][0]),
-                "log_bayes_factor": gain,
-                "preferred": gain > math.log(DECISIVE),
-                "effective": other.size,
-            }
-        )
+    for name, own in settings_of_alternatives(data, settings).items():
+        # What is found without the alternative shows where to begin, with any value of it.
+        known = posterior.points[draw(posterior, settings["samples"])]
+        near = np.column_stack([known, random.uniform(*own["ranges"][name], len(known))])
+        other = search(data, own, near=near, searches=SEARCHES_OF_ALTERNATIVE, threads=threads, bar=bar)
+        row = {"parameter": name, "unit": UNITS[name], "effective": other.size}
+        row |= {"value": math.nan, "log_bayes_factor": math.nan, "preferred": False}
+        if other.size >= EFFECTIVE_OF_EVIDENCE:
+            gain = other.log_evidence - posterior.log_evidence
+            value = values_at(centre(other.points, other.weights)[None], own)[name][0]
+            row |= {"value": float(value), "log_bayes_factor": gain, "preferred": gain > math.log(DECISIVE)}
+        rows.append(row)
     return rows

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from calibration.inference import NOT_DETERMINED, RESOLVED, TOO_FEW
+from calibration.inference import NOT_CONVERGED, NOT_DETERMINED
 from pipeline.rule_log import JobError
 
 DIGITS = 6
@@ -12,10 +12,10 @@ def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
     """The overlay as text; JobError says why there is none."""
     settings = parameters.attrs
     page = "the page calibration.md says what to do"
+    if (parameters.status == NOT_CONVERGED).any():
+        raise JobError("The search has not converged, so there is no overlay")
     if not fit.explained.all():
         raise JobError(f"The model does not explain the measurements, so there is no overlay; {page}")
-    if (parameters.status == TOO_FEW).any():
-        raise JobError(f"The search has found too few samples for an overlay; {page}")
     if (parameters.status == NOT_DETERMINED).all():
         raise JobError(f"The measurements determine no parameter, so there is no overlay; {page}")
     lines = [
@@ -25,8 +25,8 @@ def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
     head = (
         f"# Calibrated from {settings['measurements']}. Name this file behind the overlay that names the measurements."
     )
-    if parameters.effective.iloc[0] < RESOLVED:
-        head += "\n# A quick trial with too few samples for intervals: do not use these values."
+    if settings["effort"] < 1.0:
+        head += f"\n# A trial with calibration.effort = {settings['effort']:g}: do not use these values."
     parts = (
         "parts: {calibrated: true}   # the transit of parts draws these parameters from the samples of the calibration"
     )

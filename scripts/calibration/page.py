@@ -6,16 +6,8 @@ import numpy as np
 import pandas as pd
 
 from calibration.credible_intervals import CONFIDENCE
-from calibration.effort import sizes_of
-from calibration.inference import (
-    DETERMINED,
-    DISAGREEING,
-    NOT_DETERMINED,
-    OPEN,
-    REPEATABLE,
-    RESOLVED,
-    TOO_FEW,
-)
+from calibration.effort import EFFECTIVE, sizes_of
+from calibration.inference import DETERMINED, NOT_CONVERGED, NOT_DETERMINED, OPEN, REPEATABLE
 from calibration.likelihood import OUTLIERS
 from calibration.measurements import DEFAULTS, first_comments
 from calibration.model_check import DECISIVE, SIGNIFICANCE, UNLIKELY
@@ -45,13 +37,26 @@ def make(
     prefix: str,
 ) -> str:
     """The page from its template, the tables of the calibration and the text of the file of measurements."""
+    settings = parameters.attrs | sizes_of(parameters.attrs["effort"]) | CONSTANTS
+    of_search = {
+        "settings": settings,
+        "comments": first_comments(measurements),
+        "effective": float(parameters.effective.iloc[0]),
+        "searches": int(parameters.searches.iloc[0]),
+        "needed": EFFECTIVE,
+        "repeatable": REPEATABLE,
+        "converged": not (parameters.status == NOT_CONVERGED).any(),
+        "count": len(fit),
+    }
+    if not of_search["converged"]:
+        return render(template, of_search)
     rows = [
         {**row, "name": NAMES.get(row["parameter"], row["parameter"].replace("_", " "))}
         for row in parameters.replace({np.nan: None}).to_dict("records")
     ]
     decades = alternatives.log_bayes_factor / math.log(10.0)
     others = (
-        alternatives.assign(factor=[power_of_ten(one) for one in decades])
+        alternatives.assign(factor=["" if math.isnan(one) else power_of_ten(one) for one in decades])
         .sort_values("log_bayes_factor", ascending=False, kind="stable")
         .to_dict("records")
     )
@@ -61,27 +66,19 @@ def make(
     shown = np.unique(np.linspace(0, len(prediction) - 1, SHOWN).round().astype(int))
     return render(
         template,
-        {
-            "settings": parameters.attrs | sizes_of(parameters.attrs["effort"]) | CONSTANTS,
+        of_search
+        | {
             "prefix": prefix,
-            "comments": first_comments(measurements),
             "parameters": rows,
             "by_status": {
                 status: [row for row in rows if row["status"] == status]
                 for status in (DETERMINED, OPEN, NOT_DETERMINED)
             },
-            "reliable": not (parameters.status == TOO_FEW).any(),
-            "effective": float(parameters.effective.iloc[0]),
-            "searches": int(parameters.searches.iloc[0]),
-            "disagreeing": bool((parameters.status == DISAGREEING).any()),
-            "repeatable": REPEATABLE,
-            "resolved": RESOLVED,
             "explained": bool(fit.explained.all()),
             "fits": bool(fit.p_value.iloc[0] >= SIGNIFICANCE),
             "alternatives": others,
             "preferred": [row for row in others if row["preferred"]],
             "p_value": float(fit.p_value.iloc[0]),
-            "count": len(fit),
             "changed": int(fit.changed.sum()),
             "defaults": DEFAULTS,
             "unlikely": UNLIKELY,

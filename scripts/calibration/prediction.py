@@ -91,7 +91,9 @@ def predict(
     threads: int = 1,
     progress: str | None = None,
 ) -> dict[str, dict]:
-    """Both tables, with amplitudes up to a relative distance `beyond` the measured ones."""
+    """Both tables, with amplitudes up to a relative distance `beyond` the measured ones; no rows without samples."""
+    if samples.empty:
+        return {name: fields.columns([], schema) for name, schema in TABLES.items()}
     low, high = fit.acceleration.min(), fit.acceleration.max()
     between = np.unique(np.linspace(low, high, settings["amplitudes"]))
     # Amplitudes that are nearly equal would otherwise ask for any number of further ones.

@@ -12,6 +12,7 @@ from .packing import check_rows
 from .parallel import for_each_chunk
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
 from .solver import record, trajectory
+from .solver.arrivals import CYCLES, EVERY_CYCLE, ON_TRACK, SHARE
 from .solver.record import SAMPLES, VX, VZ, X, Z
 from .solver.status import OK, STATUS
 
@@ -130,6 +131,7 @@ def sample_runs(
     tolerance: float = DEFAULT_TOLERANCE,
     step: float = DEFAULT_STEP,
     reuse: bool = True,
+    skip: bool = False,
     threads: int = 1,
     chunk: int = 64,
     progress: str | None = None,
@@ -143,6 +145,7 @@ def sample_runs(
     columns : the wanted samples, among x, z (m), vx, vz (m/s), contact_force, friction_force (N);
         without x, vx and friction_force the horizontal motion is not followed
     method, tolerance, step, reuse : as in `simulate`
+    skip : whether the event-driven method skips cycles between two samples in which the motion repeats itself
     threads, chunk, progress : as in `sweep`
 
     Returns
@@ -183,7 +186,12 @@ def sample_runs(
                         samples[name][k] = values
             return
         motion, results = trajectory.integrate(
-            rows[part], times[part], tolerance=tolerance, feeding=feeding, reuse=reuse
+            rows[part],
+            times[part],
+            tolerance=tolerance,
+            feeding=feeding,
+            reuse=reuse,
+            repetition=(CYCLES, SHARE * tolerance) if skip else EVERY_CYCLE,
         )
         for name, values in samples.items():
             values[part] = motion[:, :, SAMPLES.index(name)]
@@ -270,7 +278,7 @@ def transits(
 
     def work(first, behind):
         rows = slice(first, behind)
-        targets = {"distances": lengths, "arrivals": arrival[rows], "since": begin[rows]}
+        targets = {"distances": lengths, "arrivals": arrival[rows], "since": begin[rows], "repetition": ON_TRACK}
         samples, results = trajectory.integrate(parameters[rows], times[rows], tolerance=tolerance, **targets)
         travelled[rows] = samples[:, 1:, X]
         peaks[rows] = results[:, [record.IMPACT_SPEED, record.PEAK_FORCE]]

@@ -71,10 +71,13 @@ def with_calibration(settings: dict, samples: pd.DataFrame | None, parameters: p
     Raises
     ------
     JobError
-        if the model has other values, for example those of an earlier calibration
+        if the model has other values, for example those of an earlier calibration, or there are no samples because the
+        search of the calibration has not converged
     """
     if samples is None:
         return settings
+    if samples.empty:
+        raise JobError("The search of the calibration has not converged, so that parts cannot be drawn from it")
     for row in parameters.itertuples():
         if not math.isclose(own := settings["model"][row.parameter], row.best, rel_tol=ROUNDING):
             raise JobError(

@@ -6,13 +6,14 @@ from functools import partial
 import numpy as np
 import pandas as pd
 import pytest
+from project import ROOT, read_config
 
-from calibration import model_check, prediction
-from calibration.calibrate import calibrate
+from calibration import model_check, page, prediction
+from calibration.calibrate import calibrate, make
 from calibration.importance_sampling import Sample
 from calibration.inference import (
     DETERMINED,
-    DISAGREEING,
+    NOT_CONVERGED,
     NOT_DETERMINED,
     OPEN,
     agree,
@@ -25,6 +26,7 @@ from calibration.model_check import compare_alternatives
 from calibration.search_space import bounds_of
 from calibration.synthetic import csv_text, measure
 from conveyor.parameters import RANGES
+from workflow.config.tables import settings_of
 
 MODEL = {"frequency": 40.0, "angle": 0.3, "mass": 1e-3, "gravity": 9.81, "exponent": 1.5, "inclination": 0.0}
 MODEL |= {"phase_shift": 0.0}
@@ -45,7 +47,6 @@ SETTINGS = {
     "points": 50,
     "rounds": 12,
     "enough": 60.0,
-    "effective": 20.0,
     "samples": 40,
     "checked": 6,
     "checked_parts": 16,
@@ -124,7 +125,7 @@ def test_searches_that_find_other_values_disagree():
     points = 0.5 * (low + high) + 0.01 * (high - low) * random.standard_normal((400, 3))
     search = np.arange(400) % 4
     weights = np.full(400, 1 / 400)
-    for shift, status in ((0.0, DETERMINED), (0.2, DISAGREEING)):
+    for shift, status in ((0.0, DETERMINED), (0.2, NOT_CONVERGED)):
         moved = points + np.where(search == 3, shift, 0.0)[:, None] * [high[0] - low[0], 0.0, 0.0]
         found = Sample(moved, np.zeros(400), weights, 0.0, 400.0, search)
         friction, *_ = summarize_parameters(found, SETTINGS)
@@ -150,12 +151,15 @@ def test_an_inclination_that_was_not_stated_rejects_the_model(found):
     assert not np.all(inclined["fit"]["explained"])
 
 
-def test_alternatives_are_also_searched_in_one_round_if_the_search_without_them_ends_at_a_single_point():
+def test_an_alternative_whose_search_has_not_converged_is_not_preferred(monkeypatch):
     points = np.repeat(bounds_of(SETTINGS).mean(axis=0)[None], 5, axis=0)
-    found = Sample(points, np.zeros(5), np.array([1.0, 0.0, 0.0, 0.0, 0.0]), 0.0, 1.0, np.zeros(5, int))
-    settings = SETTINGS | {"rounds": 1, "alternatives": {"inclination": 0.2}}
-    (row,) = compare_alternatives(found, data_of(measured(), MODEL), settings, threads=2)
-    assert row["parameter"] == "inclination" and np.isfinite(row["log_bayes_factor"])
+    found, other = (
+        Sample(place, np.zeros(5), np.full(5, 0.2), evidence, 5.0, np.zeros(5, int))
+        for place, evidence in ((points, 7.0), (np.column_stack([points, np.full(5, 0.1)]), 70.0))
+    )
+    monkeypatch.setattr(model_check, "search", lambda *_, **__: other)
+    (row,) = compare_alternatives(found, data_of(measured(), MODEL), INCLINED)
+    assert not row["preferred"] and math.isnan(row["log_bayes_factor"]) and math.isnan(row["value"])
 
 
 @pytest.mark.parametrize(("gain", "preferred"), [(-4.0, False), (2.9, False), (3.1, True)])
@@ -164,7 +168,7 @@ def test_an_alternative_is_preferred_from_a_bayes_factor_of_twenty_on(gain, pref
     points = np.repeat(bounds_of(SETTINGS).mean(axis=0)[None], 5, axis=0)
     inclined = np.column_stack([points, np.full(5, 0.1)])
     found, other = (
-        Sample(place, np.zeros(5), np.full(5, 0.2), evidence, 5.0, np.zeros(5, int))
+        Sample(place, np.zeros(5), np.full(5, 0.2), evidence, 50.0, np.zeros(5, int))
         for place, evidence in ((points, 7.0), (inclined, 7.0 + gain))
     )
     monkeypatch.setattr(model_check, "search", lambda *_, **__: other)
@@ -177,6 +181,38 @@ def test_a_parameter_that_the_measurements_state_is_no_alternative():
     stated = [one._replace(changed={"inclination": 0.0}) for one in measured()]
     data = data_of(stated, MODEL)
     assert compare_alternatives(None, data, SETTINGS | {"alternatives": {"inclination": 0.2}}) == []
+
+
+# A bowl feeder that rises by 3°, with vertical amplitudes of 0.6 to 1 g, where parts hardly leave the track.
+BOWL = {"frequency": 100.0, "angle": math.radians(20.0), "inclination": math.radians(3.0), "mass": 8e-4}
+BOWL_CONTACT = {"friction": 0.36, "damping": 1.0, "stiffness": 1.1e6}
+
+
+def test_a_trial_of_twenty_velocities_of_the_model_itself_gives_no_verdict(capsys):
+    """Its search has not converged, and says only that, in the tables and on the page."""
+    settings = settings_of(read_config(), "calibration/parameters")
+    settings |= {"model": settings["model"] | BOWL, "measurements": "mine.csv", "effort": 0.3}
+    settings |= {"height": [0.0, 1.2e-4], "vz0": [-0.1, 0.1]}
+    amplitudes = np.repeat(np.linspace(0.6, 1.0, 10) * 9.81 / math.sin(BOWL["angle"]), 2)
+    random = np.random.default_rng(3)
+    rows = measure(settings["model"] | BOWL_CONTACT, amplitudes, settings, 0.02, random, duration=0.1)
+    text = csv_text(rows, "synthetic", duration=0.1, before=0.1)
+    found = {name: pd.DataFrame(columns) for name, columns in make(text, settings, progress="search").items()}
+    assert (found["parameters"].status == NOT_CONVERGED).all() and (found["parameters"].effective < 40.0).all()
+    assert found["parameters"][["best", "best_error", "low", "high"]].isna().all(axis=None)
+    assert found["fit"][["explained", "p_value", "fits", "median"]].isna().all(axis=None)
+    assert found["samples"].empty and found["alternatives"].empty
+    found["parameters"].attrs = settings
+    predicted = prediction.make(found.pop("samples"), found["fit"], settings)
+    template = (ROOT / "workflow/templates/calibration.md").read_text(encoding="utf-8")
+    tables = found | {name: pd.DataFrame(columns) for name, columns in predicted.items()}
+    text = page.make(template, **tables, measurements=text, prefix="mine")
+    assert "**This is a trial" in text and "**The search has not converged.**" in text
+    assert "explain the" not in text and "±" not in text
+    # One progress over all searches, which begins with the time at most.
+    first, *progress = capsys.readouterr().err.splitlines()
+    assert first.startswith("search: at most about") and len(progress) <= 2
+    assert all(line.startswith("search: ") and "runs at most" in line for line in progress)
 
 
 def test_results_do_not_depend_on_the_threads():

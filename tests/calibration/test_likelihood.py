@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from calibration.likelihood import OUTLIERS, conditions_of, log_densities, velocities, widths
+from calibration.likelihood import OUTLIERS, conditions_of, is_known, log_densities, velocities, widths
 from calibration.measurements import Measurement
 from calibration.search_space import bounds_of, values_at
 from conveyor import Conveyor, Start, simulate
@@ -89,7 +89,7 @@ def test_a_motion_with_a_small_share_is_not_missed_because_the_first_parts_are_a
     rows = [Measurement(1, 43.22, 0.0628, None, 1.0, 1.0, {})]
     conditions, _ = conditions_of(rows, MODEL | {"angle": 0.3, "mass": 1e-3})
     values = {name: np.full(60, value) for name, value in {"friction": 0.25, "damping": 0.3, "stiffness": 3e5}.items()}
-    found = velocities(values, conditions, BOX, parts=24, seed=3, worth=lambda few: np.full(len(few), True))
+    found = velocities(values, conditions, BOX, parts=24, seed=3, worth=lambda few: np.full(few.shape[:2], True))
     rare = found[:, 0] < 0.09
     assert 0.1 < rare.mean() < 0.3
     assert np.count_nonzero(~rare.any(axis=1)) <= 3
@@ -111,7 +111,7 @@ def test_no_set_may_be_worth_more_parts():
     conditions, _ = conditions_of([Measurement(1, 40.0, 0.06, None, 0.2, 0.2, {})], MODEL)
     values = {name: np.full(2, value) for name, value in CONTACT.items()}
     first = velocities(values, conditions, BOX, parts=8, seed=3)
-    found = velocities(values, conditions, BOX, parts=24, seed=3, worth=lambda few: np.full(len(few), False))
+    found = velocities(values, conditions, BOX, parts=24, seed=3, worth=lambda few: np.full(few.shape[:2], False))
     np.testing.assert_array_equal(found, np.tile(first, 3))
 
 
@@ -131,3 +131,13 @@ def test_searched_parameters_lie_on_logarithmic_scales_between_their_bounds(para
         assert middle[name][0] == pytest.approx(wanted)
     if "friction" in parameters:
         assert ends["friction"] == pytest.approx([0.1, 1.0])
+
+
+def test_more_parts_tell_nothing_new_where_the_first_ones_have_the_measured_velocity():
+    one, two = np.full(8, 0.1), np.repeat([0.1, 0.2], 4)
+    few = np.array([[one, one], [two, one], [one, 2.0 * one]])
+    # The first condition was measured twice.
+    measured, of = np.array([0.1, 0.101, 0.1]), np.array([0, 0, 1])
+    known = is_known(few, measured, of, np.full(3, 0.002), np.full(3, 0.5))
+    assert known.tolist() == [[True, True], [False, True], [True, False]]
+    assert not is_known(few * np.nan, measured, of, np.full(3, 0.002), np.full(3, 0.5)).any()

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from . import contact, pieces, repeated_steps
-from .arrivals import first_block, has_arrived, record_arrivals, skip_blocks
+from .arrivals import EVERY_CYCLE, first_block, has_arrived, record_arrivals, skip_blocks
 from .horizontal import Horizontal, follow_horizontal, touch_down
 from .jit import compiled, no_refcount
 from .model import VZ0, Z0
@@ -21,6 +21,7 @@ def integrate(
     tolerance: float,
     feeding: bool = True,
     reuse: bool = True,
+    repetition: tuple[int, float] = EVERY_CYCLE,
     event_times: np.ndarray | None = None,
     event_kinds: np.ndarray | None = None,
     distances: np.ndarray | None = None,
@@ -29,8 +30,7 @@ def integrate(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Follow parts until the last of their `times` and sample them there.
 
-    With `distances`, a part is followed no further than the last of them, and blocks of cycles in which its motion
-    repeats itself are skipped, also by the counts in the results.
+    With `distances`, a part is followed no further than the last of them.
 
     Parameters
     ----------
@@ -39,6 +39,8 @@ def integrate(
     tolerance : relative error per step of the contact
     feeding : whether the horizontal motion is wanted; without it its columns are NaN
     reuse : whether steps of a settled motion are repeated instead of computed (see repeated_steps)
+    repetition : cycles of a block and largest difference; blocks in which a motion repeats itself are skipped (see
+        arrivals), also by the counts in the results
     event_times, event_kinds : float64 (s) and int8, shape (n, m), filled with the first m events of each
     distances : float64, shape (d,), m along the track, ascending, > 0
     arrivals : float64, shape (n, d), filled with the first times (s) at which a part is at each distance, to a small
@@ -62,7 +64,13 @@ def integrate(
     # Plain tuples, because numba takes several microseconds per call to find the type of a named tuple.
     records = (times, since, samples, event_times, event_kinds, arrivals, results)
     # `follow` expects results of zero.
-    follow(parameters, (tolerance, feeding, reuse), records, distances, contact.workspace(repeated_steps.PLACES))
+    follow(
+        parameters,
+        (tolerance, feeding, reuse, repetition),
+        records,
+        distances,
+        contact.workspace(repeated_steps.PLACES),
+    )
     return samples, results
 
 
@@ -72,7 +80,7 @@ def follow(parameters, options, records, distances, series):
 
     Parameters
     ----------
-    options : tolerance, feeding and reuse, see `integrate`
+    options : tolerance, feeding, reuse and repetition, see `integrate`
     records : the fields of a Record but `distances`, each with one more axis in front, that of the runs
     distances : see `integrate`
     series : a workspace with repeated_steps.PLACES steps
@@ -80,7 +88,7 @@ def follow(parameters, options, records, distances, series):
     Only Python calls this function, because numba would compile the whole solver again into each compiled caller. The
     loop over the runs is here for the same reason: as a function of its own, it would take 3 s more to compile.
     """
-    tolerance, feeding, reuse = options
+    tolerance, feeding, reuse, repetition = options
     times, since, samples, event_times, event_kinds, arrivals, results = no_refcount(records)
     series, distances = no_refcount((series, distances))
     for i in range(parameters.shape[0]):
@@ -111,7 +119,7 @@ def follow(parameters, options, records, distances, series):
                 break
             motion, clock = pieces.next_cycle(c, next_clock, after, piece)
             if clock.pieces == 0:
-                clock, horizontal, block = skip_blocks(c, record, block, clock, motion, horizontal)
+                clock, horizontal, block = skip_blocks(c, record, block, repetition, clock, motion, horizontal)
             if piece.kind == FLIGHT and feeding:
                 horizontal = touch_down(c, motion, horizontal)
         end_record(record, status, feeding)

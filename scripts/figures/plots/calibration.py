@@ -107,8 +107,20 @@ def draw_posterior(panels: np.ndarray, parameters: pd.DataFrame, samples: pd.Dat
                 axes.tick_params(labelleft=False)
 
 
+def draw_measured(axes: Axes, fit: pd.DataFrame) -> None:
+    """Measured velocities alone, because the search has not converged."""
+    axes.errorbar(fit.acceleration, fit.velocity, 2.0 * fit.sd, elinewidth=0.6, fmt="ok", markersize=2.6)
+    axes.set_title("The search has not converged: no parameters, no prediction")
+    axes.set_xlabel(style.AMPLITUDE)
+    axes.set_ylabel(style.VELOCITY)
+
+
 def plot(*, parameters: pd.DataFrame, samples: pd.DataFrame, fit: pd.DataFrame, prediction: pd.DataFrame) -> Figure:
     """Draw the calibration."""
+    if samples.empty:
+        figure = style.figure(style.PAGE, 62.0)
+        draw_measured(figure.subplots(), fit)
+        return figure
     count = len(parameters)
     figure = style.figure(style.PAGE, 62.0 + 32.0 * count)
     above, under = figure.subfigures(2, 1, height_ratios=(62.0, 32.0 * count))
