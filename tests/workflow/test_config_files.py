@@ -132,9 +132,12 @@ def test_the_config_of_the_paper_is_in_canonical_form():
     """Otherwise tables would change, because rules pass keys in this order and numbers of these types."""
     config = plain(read_config())
     found = canonical(config)
-    assert found == config
-    for section in config.keys() - set(METHOD_SECTIONS):
-        assert written(found[section]) == written(config[section])
+    # Dimensionless settings become values in SI units.
+    in_si = [section for section in config if "dimensionless" not in written(config[section])]
+    assert len(in_si) > 20
+    for section in in_si:
+        assert found[section] == config[section]
+        assert section in METHOD_SECTIONS or written(found[section]) == written(config[section])
     found, config = by_methods(found), by_methods(config)
     for section in METHOD_SECTIONS:
         for name in config[section]:
