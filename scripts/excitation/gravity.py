@@ -17,7 +17,7 @@ ABSENT = 0.06  # of gravity: a mean below this is an offset of a sensor that rem
 SIZE = 0.1  # relative deviation within which the mean counts as gravity; sensors have errors of some percent
 NEAR = 0.05  # relative deviation within which another unit explains the mean
 MOST_LEAN = 0.04  # rad, within which the direction of gravity fits; an offset of 0.04 g turns it by this much
-SURE = 3.0  # standard errors from which a deviation is one
+SURE = 3.0  # standard errors from which a deviation of the size is one; of the direction, one is enough
 # What else the unit of a file may be, in m/s².
 OTHER_UNITS = {
     "cm/s²": 1e-2,
@@ -46,11 +46,11 @@ def gravity_of(fitted: Fit, inclination: float) -> Gravity:
     """Gravity in the offsets of a fit, for a track that rises by `inclination` (rad)."""
     size = math.hypot(*fitted.offsets) / STANDARD_GRAVITY
     lean = wrap(math.atan2(*fitted.offsets) - inclination)
-    chance = SURE * math.sqrt((fitted.residual**2).mean() / fitted.residual.shape[1]) / STANDARD_GRAVITY
+    chance = math.sqrt((fitted.residual**2).mean() / fitted.residual.shape[1]) / STANDARD_GRAVITY
     if size < ABSENT:
         return Gravity(False, size, lean, 0.0, 0.0)
     off = size - 1.0
-    return Gravity(True, size, lean, off if abs(off) > chance else 0.0, lean if abs(lean) > chance else 0.0)
+    return Gravity(True, size, lean, off if abs(off) > SURE * chance else 0.0, lean if abs(lean) > chance else 0.0)
 
 
 def size_fault(gravity: Gravity, unit: str) -> str | None:

@@ -42,7 +42,7 @@ def median_nearby(values: np.ndarray) -> np.ndarray:
     """Running median."""
     from scipy.ndimage import median_filter
 
-    return median_filter(values, NEARBY, mode="nearest")
+    return median_filter(values, NEARBY, mode="mirror")
 
 
 def modulation_of(time: np.ndarray, fitted: Fit) -> Modulation:
