@@ -33,9 +33,8 @@ from conveyor.elementary import exp, log
 from conveyor.linear_algebra import cholesky, product, solve
 
 # Standard deviations of the average over neighbours, in units of the standard deviation of the posterior. The narrowest
-# one that gives enough effective points counts; wider ones are only tried after more rounds. The second ones are those
-# of factors that are known without noise.
-NOISY, EXACT = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5), (0.0,)
+# one that gives enough effective points counts; wider ones are only tried after more rounds.
+WIDTHS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5)
 # Effective points that the density of a proposal keeps, for each parameter and as a share of a round, and the factor by
 # which its power falls if even the flattest density keeps fewer. With fewer points, searches in a narrow valley all
 # miss its ends, so that the difference between them does not show it.
@@ -190,7 +189,6 @@ def sample(
     rounds: int,
     enough: float,
     seed: int | list[int],
-    widths: tuple[float, ...] = NOISY,
     near: np.ndarray | None = None,
 ) -> Sample:
     """A sample of the posterior with a constant prior within the bounds, by one search.
@@ -206,7 +204,6 @@ def sample(
     rounds : largest number of further rounds
     enough : effective number of points at which the search ends
     seed : of the random numbers
-    widths : NOISY or EXACT, for factors with and without noise
     near : points of a related posterior, shape (k, d), near which the first of the further rounds draws
 
     Raises
@@ -232,9 +229,9 @@ def sample(
     known = tempered(np.full(first, 1.0 / first), 0.0)
     proposals: list[Kernels] = []
     while True:
-        for width in widths:
+        for width in WIDTHS:
             settled = settle(factors[0], x, mixture, known, width, enough)
-            if settled.size >= enough or width >= widths[-1] * len(proposals) / rounds:
+            if settled.size >= enough or width >= WIDTHS[-1] * len(proposals) / rounds:
                 break
         if settled.size >= enough or len(proposals) == rounds:
             # A proposal counts as one in `mixture`, and stands for as many points as a round has.
@@ -242,7 +239,7 @@ def sample(
         if near is not None and not proposals:
             proposals.append(kernels(near, np.ones(len(near))))
         else:
-            known = tempered(known, widths[-1])
+            known = tempered(known, WIDTHS[-1])
             centres = np.flatnonzero(known > LIGHT * known.max())
             if len(centres) > CENTRES:
                 centres = random.permutation(centres)[:CENTRES]
@@ -253,7 +250,7 @@ def sample(
         of_old = np.column_stack([mixture, volume + log_kernels(proposals[-1], x)])
         mixture = np.append(log_sum(of_old), log_sum(of_new.T))
         x, factors = np.vstack([x, new]), np.concatenate([factors, log_factors(new)], axis=1)
-        known = tempered(np.append(known, np.zeros(len(new))), widths[-1])
+        known = tempered(np.append(known, np.zeros(len(new))), WIDTHS[-1])
 
 
 def pooled(samples: list[Sample]) -> Sample:
