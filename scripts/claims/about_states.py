@@ -295,11 +295,13 @@ def fit(*, euler: pd.DataFrame, converged: pd.DataFrame, edge: pd.DataFrame) -> 
     best, paper = (converged.set_index("fit").loc[name] for name in ("pymoo", "paper"))
     low, high = converged.attrs["acceleration"]
     heights = edge[edge.is_critical & edge.acceleration.between(low, high)]
-    distance = (paper.A / (paper.B + heights.acceleration) + paper.C - heights.z0).abs().max()
+    distances = (paper.A / (paper.B + heights.acceleration) + paper.C - heights.z0).abs()
+    where = heights.acceleration[distances.idxmax()]
     valley = flat_part(converged)
     note = (
-        f"The curve with the paper's coefficients misses the converged heights by at most {1e3 * MM * distance:.0f} "
-        f"µm. The coefficients themselves are poorly determined: the best ones are A = {best.A:.4g} m²/s², "
+        f"The curve with the paper's coefficients misses the converged heights by at most "
+        f"{1e3 * MM * distances.max():.0f} µm (at {where:g} m/s²; median {1e3 * MM * distances.median():.0f} µm). The "
+        f"coefficients themselves are poorly determined: the best ones are A = {best.A:.4g} m²/s², "
         f"B = {best.B:.4g} m/s² and C = {best.C:.4g} m, and every B from {valley.B.min():.4g} to "
         f"{valley.B.max():.4g} m/s² with its best A and C fits no worse than the paper's"
     )

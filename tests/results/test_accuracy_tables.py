@@ -80,7 +80,7 @@ def test_fixed_steps_are_right_far_within_the_limit(result):
 
 
 def test_the_paper_s_exponent_of_an_orbit_has_the_wrong_sign(result):
-    """A shift of the phase decays on a settled orbit; with Euler it does not, however small it is."""
+    """A shift of the phase stays a small shift in time on a settled orbit; with Euler it grows, however small it is."""
     table = result("stability_estimates")
     rows = table[(table.panel == "perturbation") & (table.case == "orbit_phase") & (table.epsilon < 1e-6)]
     by_euler, converged = (rows[rows.estimator == method].value for method in ("euler", "event"))
