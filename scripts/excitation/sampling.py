@@ -16,7 +16,7 @@ from .reading import Recording
 
 CHECKED = 2**15  # samples that are searched for lines: more cost seconds at every start
 # How the times follow from the file.
-STAMPED, RATE, ROUNDED, EVEN = "stamped", "rate", "rounded", "even"
+STAMPED, ROUNDED, EVEN = "stamped", "rounded", "even"  # beside "rate", as stated
 LEAST_REPEATED = 3  # lines that repeat the one before, from which it may be no chance
 WORSE = 1.3  # times the smallest residual variance, from which an interpretation is wrong
 BETTER = 0.98  # times the power beside the fundamental of the times as stamped, below which others are better
