@@ -218,7 +218,7 @@ WRONG = [
         "claims.C01.finding = 'about_states.critical_heigth' is not a finding of the default config; did you mean",
     ),
     (
-        {"model": {"static_friction": 0.1}},
+        {"prefix": "mine", "model": {"static_friction": 0.1}},
         "model has static_friction = 0.1 below friction = 0.15; give a larger static_friction, or leave it out",
     ),
     (
@@ -283,7 +283,7 @@ def test_an_error_names_key_and_remedy(overlay, message):
 
 
 def test_a_fault_of_the_model_is_reported_once_for_all_entries_that_inherit_it():
-    lines = problems(merged(CONFIG, {"model": {"static_friction": 0.1}}))
+    lines = problems(merged(CONFIG, {"prefix": "mine", "model": {"static_friction": 0.1}}))
     assert [line.partition(" = ")[0] for line in lines] == ["model has static_friction"]
 
 
@@ -306,11 +306,11 @@ def test_configs_are_valid():
                 "C01": {"finding": "about_states.critical_acceleration", "quantities": {"critical_amplitude": {}}}
             }
         },
-        {"figures": {"fig03": {"tables": {"euler": "sweeps/amplitudes"}, "settings": {"critical_acceleration": 45}}}},
+        {"figures": {"fig03": {"tables": {"euler": "sweeps/amplitudes"}, "marks": {"critical_acceleration": 45}}}},
         {"prefix": "mine_1"},
         {"model": {"static_friction": 0.15}},
-        {"model": {"static_friction": 0.2}},
-        {"model": {"friction": 0.0, "static_friction": 0.1}},
+        {"prefix": "mine", "model": {"static_friction": 0.2}},
+        {"prefix": "mine", "model": {"friction": 0.0, "static_friction": 0.1}},
     ],
     ids=str,
 )

@@ -68,11 +68,11 @@ def test_only_tables_that_use_it_after_a_config_value(built, change, expected):
 
 def test_no_table_of_the_normal_motion_after_its_motion_along_the_track(copied):
     sweeps = {"mine": {"axes": {"acceleration": [30.0, 31.0]}, "needs": "vertical", "duration": 0.02}}
-    table = "results/sweeps/mine.parquet"
-    copied.under({"sweeps": sweeps}).make_in_process(table)
+    own, table = {"prefix": "own", "sweeps": sweeps}, "results/own/sweeps/mine.parquet"
+    copied.under(own).make_in_process(table)
     along = {"friction": 0.2, "static_friction": 0.3, "phase_shift": 0.5}
-    assert copied.under({"sweeps": sweeps, "model": along}).planned(table) == {}
-    assert copied.under({"sweeps": sweeps, "model": {"inclination": 0.1}}).planned(table) == {"sweeps": 1}
+    assert copied.under({**own, "model": along}).planned(table) == {}
+    assert copied.under({**own, "model": {"inclination": 0.1}}).planned(table) == {"sweeps": 1}
 
 
 @pytest.mark.parametrize(
