@@ -156,7 +156,8 @@ def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
         yield (
             None,
             f"alternates from line to line between amplitudes that differ by {200.0 * half:.2g} %, as two sensors in "
-            "one file do; keep the lines of one sensor",
+            "one file do, or one whose samples are lost regularly; keep the lines of one sensor, and record without "
+            "losses",
         )
     elif found.scatter > MOST_SCATTER:
         scatter = found.scatter / (2.0 * math.pi * signal.fitted.frequency)
