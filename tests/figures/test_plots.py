@@ -13,7 +13,7 @@ from accuracy import precision, speed
 from conveyor.solver.status import EVENT_LOST, GAVE_UP, NOT_FINITE, OK, STATUS, STEP_TOO_SMALL, STUCK
 from figures import style
 from figures.caption_numbers.work_precision import numbers
-from figures.plots import drive, fig08, fig15, transit, work_precision
+from figures.plots import calibration, drive, fig08, fig15, transit, work_precision
 
 
 def sweep(low: float, high: float) -> pd.DataFrame:
@@ -185,3 +185,12 @@ def test_arrow_and_caption_compare_with_the_fastest_other_method(method, name):
     found = numbers(**scenes)
     assert [rival_name for *_, rival_name in found["comparisons"]] == [name] * 3
     assert found["difference"] == 2e-13
+
+
+def test_a_calibration_that_has_not_converged_shows_the_measured_velocities_alone():
+    fit = pd.DataFrame({"acceleration": [30.0, 40.0], "velocity": [0.05, 0.06], "sd": 0.001})
+    none = pd.DataFrame()
+    figure = calibration.plot(parameters=none, samples=none, fit=fit, prediction=none)
+    (axes,) = figure.axes
+    assert "not converged" in axes.get_title() and axes.get_ylabel().endswith("in cm/s")
+    assert axes.yaxis.get_major_formatter()(0.05) == "5"

@@ -112,7 +112,7 @@ def draw_measured(axes: Axes, fit: pd.DataFrame) -> None:
     axes.errorbar(fit.acceleration, fit.velocity, 2.0 * fit.sd, elinewidth=0.6, fmt="ok", markersize=2.6)
     axes.set_title("The search has not converged: no parameters, no prediction")
     axes.set_xlabel(style.AMPLITUDE)
-    axes.set_ylabel(style.VELOCITY)
+    style.velocity_axis(axes.yaxis)
 
 
 def plot(*, parameters: pd.DataFrame, samples: pd.DataFrame, fit: pd.DataFrame, prediction: pd.DataFrame) -> Figure:
