@@ -7,8 +7,8 @@ from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
 try:
-    from workflow.config import ConfigError, load_config
-    from workflow.config.files import DEFAULT_FILES, ROOT, USER_FILE
+    from conveyor_pipeline.config import ConfigError, load_config
+    from conveyor_pipeline.config.files import DEFAULT_FILES, ROOT, USER_FILE
 except ImportError as error:
     names = list(accumulate((error.name or "").split("."), "{}.{}".format))
     if names[0] not in ("workflow", "scripts"):
@@ -58,19 +58,19 @@ container: "conveyor.sif"
 
 
 include: "workflow/rules/common.smk"
-include: "workflow/rules/sweeps.smk"
-include: "workflow/rules/motion.smk"
-include: "workflow/rules/orbits.smk"
-include: "workflow/rules/dimensions.smk"
-include: "workflow/rules/fit.smk"
-include: "workflow/rules/sensitivity.smk"
-include: "workflow/rules/operating.smk"
-include: "workflow/rules/excitation.smk"
-include: "workflow/rules/calibration.smk"
-include: "workflow/rules/accuracy.smk"
-include: "workflow/rules/claims.smk"
+include: "workflow/rules/paper/sweeps.smk"
+include: "workflow/rules/paper/motion.smk"
+include: "workflow/rules/paper/orbits.smk"
+include: "workflow/rules/paper/dimensions.smk"
+include: "workflow/rules/paper/fit.smk"
+include: "workflow/rules/paper/sensitivity.smk"
+include: "workflow/rules/machine/operating.smk"
+include: "workflow/rules/machine/excitation.smk"
+include: "workflow/rules/machine/calibration.smk"
+include: "workflow/rules/study/accuracy.smk"
+include: "workflow/rules/paper/claims.smk"
 include: "workflow/rules/figures.smk"
-include: "workflow/rules/docs.smk"
+include: "workflow/rules/pages/pages.smk"
 include: "workflow/rules/builds.smk"
 
 

@@ -16,10 +16,10 @@ from pathlib import Path
 
 import yaml
 
-from workflow.config import canonical
-from workflow.config.entries import ENTRIES
-from workflow.config.files import merge as merged
-from workflow.config.stages import STAGES
+from conveyor_pipeline.config import canonical
+from conveyor_pipeline.config.entries import ENTRIES
+from conveyor_pipeline.config.files import merge as merged
+from conveyor_pipeline.config.stages import STAGES
 
 ROOT = Path(__file__).resolve().parents[1]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")

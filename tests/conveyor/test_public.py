@@ -17,7 +17,7 @@ import pytest
 import conveyor
 from conveyor import Conveyor, Start, columns, parameter_table, simulation
 from conveyor.parameters import PARAMETERS, RANGES
-from pipeline import fields
+from conveyor_pipeline.common import fields
 
 ODD = (
     *(float("nan"), float("inf"), -float("inf"), None, 1e308, -1e308, -1, 0, 10**30, 1e-308, True, 1j),

@@ -11,10 +11,10 @@ from jinja2 import UndefinedError
 from project import ROOT, read_config
 from prose import typed
 
-from figures import captions
-from figures.caption_numbers import bifurcation
-from figures.titles import split_title, title_of
-from sensitivity.changes import UNEVEN
+from conveyor_pipeline.figures import captions
+from conveyor_pipeline.paper.caption_numbers import bifurcation
+from conveyor_pipeline.figures.titles import split_title, title_of
+from conveyor_pipeline.paper.sensitivity.changes import UNEVEN
 
 CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
@@ -44,7 +44,7 @@ def test_a_typed_number_is_found(text):
 def test_a_missing_number_is_an_error():
     with pytest.raises(UndefinedError, match="speed") as error:
         captions.caption("at {{ speed }} m/s", "fig01", {}, {})
-    assert error.value.__notes__ == ["in scripts/figures/plots/fig01.rst"]
+    assert error.value.__notes__ == ["in scripts/conveyor_pipeline/paper/figures/fig01.rst"]
     assert captions.caption("no number\n", "fig01", {}, {}) == "no number\n"
 
 

@@ -8,8 +8,8 @@ from jinja2.meta import find_undeclared_variables
 from project import ROOT, read_config
 
 from conveyor.methods import fixed_step, scheme
-from figures import style
-from pipeline.templates import ENVIRONMENT
+from conveyor_pipeline.figures import style
+from conveyor_pipeline.common.templates import ENVIRONMENT
 
 CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]

@@ -3,7 +3,7 @@
 import pandas as pd
 import pytest
 
-from figures import style
+from conveyor_pipeline.figures import style
 
 
 def test_files_of_a_figure_have_one_layout(tmp_path):

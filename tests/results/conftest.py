@@ -3,8 +3,8 @@
 import pytest
 
 from made import RESULTS
-from pipeline import tables
-from workflow.config.tables import kind_of
+from conveyor_pipeline.common import tables
+from conveyor_pipeline.config.tables import kind_of
 
 
 @pytest.fixture(scope="session")

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from accuracy.scene_budget import PIXELS
+from conveyor_pipeline.study.accuracy.scene_budget import PIXELS
 from made import RESULTS, ROOT
 
 SCENES = ("jumping", "riding", "bouncing", "chaotic")

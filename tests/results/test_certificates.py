@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from claims.about_proofs import stable_motions
-from orbits.certified import CLOSENESS
+from conveyor_pipeline.paper.claims.about_proofs import stable_motions
+from conveyor_pipeline.paper.orbits.certified import CLOSENESS
 
 BOUNDED = ("delta", "v", "impact_phase", "impact_speed", "duration", "contact_time", "trace", "determinant")
 

@@ -1,7 +1,7 @@
 """The page of checks: the solver agrees with published theory, and maps agree with brute force."""
 
-from accuracy import map_check
-from accuracy.theory import ACCEPTED
+from conveyor_pipeline.study.accuracy import map_check
+from conveyor_pipeline.study.accuracy.theory import ACCEPTED
 
 
 def test_all_quantities_agree_with_theory(result):

@@ -125,7 +125,7 @@ use rule * from conveyor
     report = (tmp_path / "report.html").read_text(encoding="utf-8")
     words = (tmp_path / target).read_text(encoding="utf-8").split()[:4]
     assert f"<p>{' '.join(words)}" in report
-    assert "Drawn by scripts/figures/plots/fig01.py" in report
+    assert "Drawn by scripts/conveyor_pipeline/paper/figures/fig01.py" in report
 
 
 def test_a_snakefile_in_a_folder_of_the_clone_gives_its_config(tmp_path):

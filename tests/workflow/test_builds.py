@@ -9,7 +9,7 @@ import pytest
 from project import Project, copy_project, read_config
 
 from builds import provenance
-from builds.provenance import MAY_DIFFER
+from conveyor_pipeline.common.provenance import MAY_DIFFER
 
 # The fastest of the figures that are drawn from measured times.
 TIMED = {

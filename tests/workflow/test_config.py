@@ -10,10 +10,10 @@ from project import ROOT, merged, read_config
 from conveyor import Conveyor, Start, ensemble, simulation
 from conveyor.methods import fixed_step
 from conveyor.solver import model
-from workflow.config import problems
-from workflow.config.entries import by_methods, resolve
-from workflow.config.schema import schema_at
-from workflow.config.tables import kind_of, references, settings_of
+from conveyor_pipeline.config import problems
+from conveyor_pipeline.config.entries import by_methods, resolve
+from conveyor_pipeline.config.schema import schema_at
+from conveyor_pipeline.config.tables import kind_of, references, settings_of
 
 CONFIG = read_config()
 MINE = {"axes": {"acceleration": {"start": 30, "stop": 40, "num": 3}, "z0": [0.0, "conveyor"]}}

@@ -20,9 +20,9 @@ from project import (
     read_config,
 )
 
-from workflow.config import ConfigError, canonical, load_config
-from workflow.config.entries import METHOD_SECTIONS, by_methods, resolve
-from workflow.config.files import DEFAULT_FILES, read
+from conveyor_pipeline.config import ConfigError, canonical, load_config
+from conveyor_pipeline.config.entries import METHOD_SECTIONS, by_methods, resolve
+from conveyor_pipeline.config.files import DEFAULT_FILES, read
 
 FAULTS = [
     ("model: {mass: 0.1}\nsolver: {}\nmodel: {angle: 0.1}\n", ':3: is not valid YAML: found duplicate key "model"'),
@@ -230,7 +230,7 @@ def test_nested_values_of_the_command_line_are_an_overlay(project, tmp_path):
 
 
 def test_overlays_can_be_checked_without_snakemake(tmp_path):
-    file, check = tmp_path / "mine.yaml", [sys.executable, "-m", "workflow.config"]
+    file, check = tmp_path / "mine.yaml", [sys.executable, "-m", "conveyor_pipeline.config"]
     file.write_text("prefix: mine\nmodel: {damping: 0.2\n")
     run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
     assert run.returncode == 1 and f"{file}:3: is not valid YAML: " in run.stderr
@@ -243,7 +243,7 @@ def test_the_whole_config_is_shown_with_origins(tmp_path):
     """Also of values that YAML repeats through an anchor."""
     file = tmp_path / "mine.yaml"
     file.write_text("prefix: mine\nsweeps:\n  heights:\n    axes: {z0: {num: 41}}\n  one: {axes: {z0: [0, 1e-4]}}\n")
-    show = [sys.executable, "-m", "workflow.config", "--show", str(file)]
+    show = [sys.executable, "-m", "conveyor_pipeline.config", "--show", str(file)]
     lines = subprocess.run(show, cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
     shown = dict(line.split(" = ", 1) for line in lines)
     assert shown["prefix"] == f'"mine"    # {file}:1'

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 from project import merged, permuted, read_config
 
-from workflow.config import canonical, problems
+from conveyor_pipeline.config import canonical, problems
 
 CONFIG = read_config()
 # Values that are invalid wherever another value of the same type is valid.

@@ -8,8 +8,8 @@ import yaml
 from jsonschema import Draft202012Validator
 from project import CONFIG_FILES, ROOT, config_file, read_config
 
-from docs.config_keys import list_keys, parse_file
-from workflow.config.schema import full_schema, json_schema, options_of, schema_at, unit_of
+from conveyor_pipeline.pages.config_keys import list_keys, parse_file
+from conveyor_pipeline.config.schema import full_schema, json_schema, options_of, schema_at, unit_of
 
 SCHEMA = json.loads(json_schema())
 FILES = [config_file(name) for name in (*CONFIG_FILES, "config", "reduced")]
@@ -22,7 +22,7 @@ def accepts(config: dict) -> bool:
 
 def test_the_committed_schema_is_current():
     assert (ROOT / "config/schema.json").read_text(encoding="utf-8") == json_schema(), (
-        "write workflow.config.schema.json_schema() to config/schema.json"
+        "write conveyor_pipeline.config.schema.json_schema() to config/schema.json"
     )
 
 

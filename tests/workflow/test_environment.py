@@ -16,7 +16,7 @@ STATUS = """
 
 def test_tables_request_no_huge_pages(edited, monkeypatch):
     monkeypatch.delenv("MIMALLOC_ALLOW_THP", raising=False)
-    project = edited("scripts/figures/plots/fig03.py", "\n    return figure", STATUS)
+    project = edited("scripts/conveyor_pipeline/paper/figures/fig03.py", "\n    return figure", STATUS)
     project.make("figures/fig03.pdf")
     assert "THP_enabled:\t0" in (project.folder / "status.txt").read_text()
 

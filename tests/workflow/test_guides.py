@@ -60,10 +60,10 @@ def test_a_guide_can_be_read_where_it_lies(page):
 
 def test_names_that_the_guide_says_to_edit_exist():
     for file, name in (
-        ("scripts/claims/verdicts.py", "FINDINGS"),
-        ("scripts/claims/settings.py", "CLAIMS"),
-        ("scripts/operating/settings.py", "TABLE_SETTINGS"),
-        ("scripts/figures/style.py", "METHODS"),
+        ("scripts/conveyor_pipeline/paper/claims/verdicts.py", "FINDINGS"),
+        ("scripts/conveyor_pipeline/paper/claims/settings.py", "CLAIMS"),
+        ("scripts/conveyor_pipeline/machine/operating/settings.py", "TABLE_SETTINGS"),
+        ("scripts/conveyor_pipeline/figures/style.py", "METHODS"),
         ("scripts/conveyor/parameters.py", "FIXED_STEP_METHODS"),
         ("scripts/conveyor/methods/scheme.py", "EVALUATIONS"),
         ("scripts/conveyor/methods/fixed_step.py", "GROWTH"),
@@ -146,7 +146,7 @@ def test_the_other_snakefile_plans_the_same(built):
 
 def test_breakpoint_works_in_a_job(edited):
     """As the guide says: the job keeps the terminal of Snakemake."""
-    project = edited("scripts/figures/plots/fig03.py", "    figure = ", "    breakpoint()\n    figure = ")
+    project = edited("scripts/conveyor_pipeline/paper/figures/fig03.py", "    figure = ", "    breakpoint()\n    figure = ")
     target = ("--cores", "1", "--force", "figures/fig03.png", *project.configfile())
     run = project.given_to(subprocess.run, *target, input="p 40 + 2\nc\n")
     assert run.returncode == 0, run.stdout

@@ -7,8 +7,8 @@ from importlib import import_module
 import pytest
 from project import ROOT, STAGES
 
-from scripts.pipeline import source_hash
-from workflow.config.stages import declared
+from conveyor_pipeline.common import source_hash
+from conveyor_pipeline.config.stages import declared
 
 MODULES = {
     ".".join(path.relative_to(source_hash.SCRIPTS).with_suffix("").parts): path

@@ -7,10 +7,10 @@ import yaml
 from project import ROOT, Project, merged, read_config
 
 from conveyor import Conveyor, throw_number
-from workflow.config import ConfigError, load_config, problems
-from workflow.config.entries import NORMAL
-from workflow.config.files import DEFAULT_FILES
-from workflow.config.tables import TABLES, references, settings_of
+from conveyor_pipeline.config import ConfigError, load_config, problems
+from conveyor_pipeline.config.entries import NORMAL
+from conveyor_pipeline.config.files import DEFAULT_FILES
+from conveyor_pipeline.config.tables import TABLES, references, settings_of
 
 # The examples that describe a whole conveyor: the contact of `measured` is not known, nor the drive of `accelerometer`.
 EXAMPLES = {

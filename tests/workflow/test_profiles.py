@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from project import ROOT
 
-from claims import check_results
+from conveyor_pipeline.paper.claims import check_results
 
 SBATCH = """#!/bin/sh
 echo "$@" >> "{calls}"
@@ -32,7 +32,7 @@ def run(project, *arguments, path):
 def test_slurm_gets_the_jobs(edited, tmp_path):
     """A dry run would hide an invalid profile, so a scheduler that refuses every job gets the first ones."""
     pytest.importorskip("snakemake_executor_plugin_slurm")
-    project = edited("scripts/orbits/estimates.py", "import numpy as np\n", "import numpy as np  # changed\n")
+    project = edited("scripts/conveyor_pipeline/paper/orbits/estimates.py", "import numpy as np\n", "import numpy as np  # changed\n")
     calls, commands = tmp_path / "calls", tmp_path / "commands"
     commands.mkdir()
     for command in ("sbatch", "squeue", "sinfo", "sacct"):

@@ -11,18 +11,18 @@ REMARK = ("import numpy as np\n", "import numpy as np  # changed\n")
 
 
 def test_nothing_after_a_touch(built):
-    for file in ("scripts/sweeps/shards.py", "scripts/conveyor/solver/contact.py", "scripts/figures/plots/fig22.py"):
+    for file in ("scripts/conveyor_pipeline/paper/sweeps/shards.py", "scripts/conveyor/solver/contact.py", "scripts/conveyor_pipeline/paper/figures/fig22.py"):
         os.utime(built.folder / file)
     assert built.planned(*TARGETS, "figures/fig22.png", "docs/companion.html") == {}
 
 
 def test_one_plot_after_a_line_width(edited):
-    project = edited("scripts/figures/plots/fig22.py", "linewidth=width", "linewidth=1.0")
+    project = edited("scripts/conveyor_pipeline/paper/figures/fig22.py", "linewidth=width", "linewidth=1.0")
     assert project.planned(*TARGETS) == {"plot": 1}
 
 
 def test_all_plots_after_the_style(edited):
-    project = edited("scripts/figures/style.py", '"#0072B2"', '"#123456"')
+    project = edited("scripts/conveyor_pipeline/figures/style.py", '"#0072B2"', '"#123456"')
     assert project.planned(*TARGETS) == PLOTS
 
 
@@ -39,8 +39,8 @@ def test_no_labels_after_the_pairs_of_trajectories(edited):
 @pytest.mark.parametrize(
     ("file", "old", "new"),
     [
-        ("scripts/docs/companion/solver.js", "const CYCLE_STEP = 1 / 1000;", "const CYCLE_STEP = 1 / 500;"),
-        ("scripts/figures/style.py", '"#0072B2"', '"#123456"'),
+        ("scripts/conveyor_pipeline/pages/companion/solver.js", "const CYCLE_STEP = 1 / 1000;", "const CYCLE_STEP = 1 / 500;"),
+        ("scripts/conveyor_pipeline/figures/style.py", '"#0072B2"', '"#123456"'),
     ],
 )
 def test_the_companion_after_its_sources(edited, file, old, new):

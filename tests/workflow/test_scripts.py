@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import pytest
 from project import ROOT
 
-import make
-from pipeline import fields
+import conveyor_pipeline.make
+from conveyor_pipeline.common import fields
 
 SCRIPTS = ROOT / "scripts"
 MODULES = sorted(

@@ -5,7 +5,7 @@ import sys
 import pytest
 from project import ROOT
 
-from scripts.pipeline import imports, source_hash
+from conveyor_pipeline.common import imports, source_hash
 
 # Stages that call functions of other stages; the budget makes the tables of figures again with other settings.
 CALLS = {

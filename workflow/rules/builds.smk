@@ -34,7 +34,7 @@ rule provenance:
         benchmark_file("builds/provenance")
     threads: CORES
     params:
-        **stage("builds.provenance"),
+        **stage("conveyor_pipeline.common.provenance"),
         files=sorted(BUILT_FILES),
         timed=[
             *(table(name) for name in BUILT_TABLES if kind_of(name) in TIMED),
@@ -47,4 +47,4 @@ rule provenance:
     message:
         "The manifest of all results; commit, config, versions and processor of the build"
     script:
-        "../../scripts/make.py"
+        "../../scripts/conveyor_pipeline/make.py"

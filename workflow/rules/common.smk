@@ -3,11 +3,11 @@ import os
 import re
 import signal
 
-from scripts.figures.titles import title_of
-from scripts.pipeline.source_hash import source_hash
-from workflow.config.entries import ENTRIES, MEASURED_FILES, count_points, count_shards
-from workflow.config.files import DEFAULT_FILES, ROOT
-from workflow.config.tables import kind_of, references_of, settings_of
+from conveyor_pipeline.figures.titles import title_of
+from conveyor_pipeline.common.source_hash import source_hash
+from conveyor_pipeline.config.entries import ENTRIES, MEASURED_FILES, count_points, count_shards
+from conveyor_pipeline.config.files import DEFAULT_FILES, ROOT
+from conveyor_pipeline.config.tables import kind_of, references_of, settings_of
 
 # Keep pyarrow's allocator from huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more
 # memory with them.

@@ -21,7 +21,7 @@ rule plot:
         expected=expected,
         code=lambda wildcards: source_hash("draw", f"figures/plots/{wildcards.figure}"),
     script:
-        "../../scripts/draw.py"
+        "../../scripts/conveyor_pipeline/draw.py"
 
 
 rule caption:
@@ -45,9 +45,9 @@ rule caption:
     wildcard_constraints:
         figure=one_of([*FIGURES, *NO_FIGURES]),
     params:
-        **stage("figures.captions", scripts=caption_scripts),
+        **stage("conveyor_pipeline.figures.captions", scripts=caption_scripts),
         settings=lambda wildcards: settings_of_figure(wildcards.figure),
         figure="{figure}",
         paper=IS_PAPER,
     script:
-        "../../scripts/make.py"
+        "../../scripts/conveyor_pipeline/make.py"

@@ -7,7 +7,7 @@ import tempfile
 import pytest
 
 from conveyor.solver import machine_code
-from pipeline.imports import direct_imports
+from conveyor_pipeline.common.imports import direct_imports
 
 
 def a_function():

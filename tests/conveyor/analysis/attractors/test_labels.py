@@ -8,7 +8,7 @@ from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors import attractor_table, chaotic_sets, convergence, labels, sampling, search
 from conveyor.analysis.bifurcations import bifurcation_diagram
 from conveyor.solver.model import PSI0, VZ0, Z0, pack
-from pipeline import grid
+from conveyor_pipeline.common import grid
 
 KNOWN = {
     (30.0, 0.0): ("first", 1),

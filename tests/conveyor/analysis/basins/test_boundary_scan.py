@@ -5,7 +5,7 @@ import pytest
 
 from conveyor.analysis.attractors import labels
 from conveyor.analysis.basins import boundary_scan
-from pipeline import grid
+from conveyor_pipeline.common import grid
 
 HEIGHTS = np.linspace(0.0, 5e-4, 51)
 

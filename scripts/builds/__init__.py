@@ -1,1 +1,0 @@
-"""Stage builds: what a build holds, and where it comes from."""

@@ -1,0 +1,26 @@
+"""The script of the rule that makes the site: it collects pages, pictures and files, and runs Sphinx."""
+
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+# Snakemake puts this folder last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from conveyor_pipeline.pages import site
+from conveyor_pipeline.common.rule_log import logged
+
+if __name__ == "__main__":
+    # Compiled functions have no signature for the documentation. Must be set before Sphinx imports the library.
+    os.environ["NUMBA_DISABLE_JIT"] = "1"
+    with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
+        given = snakemake.input
+        extra = {"figures": given.pdf, "": [given.article, given.companion]}
+        pages = {
+            "": [*given.pages, *given.examples, *given.pictures],
+            "guides": given.guides,
+            "diagrams": given.diagrams,
+        }
+        site.gather(folder, pages, given.style, given.png, extra)
+        site.build(folder, snakemake.output[0])

@@ -1,0 +1,72 @@
+"""The config: read, checked, and converted to the one form that rules and hashes depend on."""
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from conveyor_pipeline.config.checks import problems
+from conveyor_pipeline.config.entries import MEASURED_FILES, by_methods, with_tighter
+from conveyor_pipeline.config.errors import ConfigError, type_problems
+from conveyor_pipeline.config.files import merge, name_lines, read_all
+from conveyor_pipeline.config.model import MODEL, is_same_model
+from conveyor_pipeline.config.scales import to_si
+
+__all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
+
+
+class Loaded(NamedTuple):
+    """A config with everything that the rules need to know about it."""
+
+    config: dict  # canonical, with the tables of all methods and of tighter tolerances
+    merged: dict  # canonical, as files and command line give it
+    is_paper: bool  # whether the model is the paper's, so that its claims, remarks and marks apply
+    assumed: list[str]  # differences of parts that no overlay states
+
+
+def canonical(config: dict) -> dict:
+    """A valid config in its one form: SI units, keys in the order of the model, numbers in the types of the model.
+
+    The entries of a section and the axes of an entry keep their order, which has a meaning.
+    """
+    return MODEL.validate_python(to_si(MODEL.validate_python(config)))
+
+
+def name_measurements(config: dict, files: Sequence[str | Path], contents: list[dict]) -> None:
+    """Replace the names of files of measurements, relative to the overlay that names them, by their paths.
+
+    A name that no overlay gives, such as one from the command line, is relative to the working directory.
+    """
+    for section, key in MEASURED_FILES:
+        given = config[section].get(key)
+        for file, content in zip(files, contents, strict=True):
+            own = content.get(section)
+            if isinstance(own, dict) and isinstance(given, str) and own.get(key) == given:
+                config[section][key] = os.path.join(os.path.dirname(file), own[key])
+
+
+def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str | Path], config: dict) -> Loaded:
+    """The config of a run; ConfigError says what is wrong with it in at most six lines.
+
+    Parameters
+    ----------
+    default_files : the config of the paper
+    overlay_files : files that are merged over it. `config` contains them already; they are read again because keys keep
+        the order of the first file that has them, and because names of measurements are relative to them
+    config : Snakemake's merged config. As a module of another workflow, it is the only overlay
+    """
+    paper, overlays = merge(*read_all(default_files)), read_all(overlay_files)
+    whole = merge(paper, *overlays, config)
+    if errors := type_problems(whole):
+        raise ConfigError(name_lines(errors, overlay_files))
+    name_measurements(whole, overlay_files, overlays)
+    states_frequency = any("frequency" in (overlay.get("model") or {}) for overlay in overlays)
+    if errors := problems(whole, paper, states_frequency):
+        raise ConfigError(name_lines(errors, overlay_files))
+    for section, key in MEASURED_FILES:
+        if key not in whole[section]:
+            whole["figures_on_request"].pop(section, None)
+    merged = canonical(whole)
+    stated = merge(*overlays, config).get("parts", {})
+    assumed = [name for name in paper["parts"] if name not in (*stated, "seed")]
+    return Loaded(with_tighter(by_methods(merged)), merged, is_same_model(merged["model"], paper["model"]), assumed)

@@ -1,0 +1,44 @@
+"""Check config/config.yaml and overlays: python -m conveyor_pipeline.config [--show] FILE …
+
+With --show, print the whole config that results, with the origin of each value.
+"""
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Iterator
+
+from conveyor_pipeline.config import ConfigError, load_config
+from conveyor_pipeline.config.errors import format_key
+from conveyor_pipeline.config.files import DEFAULT_FILES, USER_FILE, find_lines
+
+
+def values_of(value: object, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], object]]:
+    """The values of a config with their paths; a list is a value."""
+    if isinstance(value, dict) and value:
+        for key, item in value.items():
+            yield from values_of(item, (*path, key))
+    else:
+        yield path, value
+
+
+def show(config: dict, files: list[str]) -> Iterator[str]:
+    """A line for each value: its key, the value as JSON, and the file and line that it comes from."""
+    lines = {path: line for file in files for path, line in find_lines(file).items()}
+    for path, value in values_of(config):
+        origin = next(lines[path[:end]] for end in range(len(path), 0, -1) if path[:end] in lines)
+        yield f"{format_key(path)} = {json.dumps(value, ensure_ascii=False)}    # {origin}"
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(prog="python -m conveyor_pipeline.config", description=__doc__)
+    parser.add_argument("--show", action="store_true", help="print all values and their origins")
+    parser.add_argument("file", nargs="*", help="an overlay, as for Snakemake's option --configfile")
+    given = parser.parse_args()
+    defaults, overlays = map(os.path.relpath, DEFAULT_FILES), [os.path.relpath(USER_FILE), *given.file]
+    try:
+        loaded = load_config(DEFAULT_FILES, overlays, {})
+    except ConfigError as error:
+        sys.exit(str(error))
+    print("\n".join(show(loaded.merged, [*defaults, *overlays])) if given.show else "The config is valid.")

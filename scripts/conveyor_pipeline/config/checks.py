@@ -1,0 +1,344 @@
+"""Contradictions between the values of a config: one line each, with the key and the remedy.
+
+Each check takes a config of the right types, and the default config.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from functools import cache
+
+from conveyor_pipeline.machine.calibration import measurements
+from conveyor import RANGES
+from conveyor_pipeline.machine.excitation.limits import STATEMENT
+from conveyor_pipeline.common import csv_table
+
+from conveyor_pipeline.config.entries import ENTRIES, FIGURES, MEASURED_FILES, METHOD_SECTIONS, by_methods, count_points, count_shards, count_values, ends, fill_defaults, resolve, values_of, variants
+from conveyor_pipeline.config.errors import suggest_name, type_problems
+from conveyor_pipeline.config.files import DEFAULT_FILES, ROOT, merge, read_all
+from conveyor_pipeline.config.model import MODEL, is_same_model
+from conveyor_pipeline.config.scales import faults_of_scales, to_si
+from conveyor_pipeline.config.tables import NAMED, TABLES, entry_of, references, references_of
+
+# Folders below results/ and figures/ that a prefix would share with the default config.
+RESERVED = {*NAMED, *(table.split("/")[0] for table in TABLES), "article", "benchmarks", "captions"}
+RESERVED |= {"checks", "claims", "docs", "logs", "runs", "sections", "shards", "site", "site_pages"}
+LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
+MOST_SHARDS = 1000  # jobs of one sweep: Snakemake takes minutes to plan more
+MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds
+# s, a multiple of all time steps of the comparison of methods (STEPS in scripts/conveyor_pipeline/study/accuracy/precision.py)
+LONGEST_STEP = 1e-3
+STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cycle
+
+
+def prefix(config: dict, defaults: dict) -> Iterator[str]:
+    if config["prefix"].lower() in RESERVED:  # macOS does not distinguish Logs from logs
+        yield f"prefix = {config['prefix']!r} is a folder of the default results; give another name"
+    if not config["prefix"] and not is_same_model(config["model"], defaults["model"]):
+        model, paper = config["model"], defaults["model"]
+        name = next(name for name, value in model.items() if name not in paper or value != paper[name])
+        yield (
+            f"model.{name} = {model[name]!r} differs from the paper's model, whose results have no prefix; give the "
+            "config one, such as prefix: mine"
+        )
+    for section, key in MEASURED_FILES:
+        if key in config[section] and not config["prefix"]:
+            yield f"{section}.{key} needs a folder for its results; give the config a prefix"
+
+
+def file_names(config: dict, defaults: dict) -> Iterator[str]:
+    for section, key in MEASURED_FILES:
+        if set("{}") & set(path := config[section].get(key, "")):
+            remedy = "rename the file or folder"
+            yield f"{section}.{key} = {path!r} has braces, which Snakemake takes for a wildcard; {remedy}"
+
+
+def methods(config: dict, defaults: dict) -> Iterator[str]:
+    """Settings of methods that exclude each other, and entries that make the same table."""
+    for section in METHOD_SECTIONS:
+        for name, entry in config[section].items():
+            used = entry.get("methods") or [entry.get("method", config["solver"]["method"])]
+            if "method" in entry and "methods" in entry:
+                yield f"{section}.{name} has both method and methods; give methods: [{entry['method']}] alone"
+            elif "step" in entry and used == ["event"] and "step" not in defaults[section].get(name, {}):
+                yield f"{section}.{name}.step is not used by the method event; remove it, or give a fixed-step method"
+        made = Counter(table for name, entry in config[section].items() for table in variants(name, entry))
+        for table in (table for table, count in made.items() if count > 1):
+            yield f"{section}.{table} is the name of two tables, one of them made by `methods`; rename an entry"
+
+
+def axes(config: dict, defaults: dict) -> Iterator[str]:
+    for section in ENTRIES:
+        for name, entry in config[section].items():
+            for axis in sorted(set(entry.get("axes", ())) & set(entry.get("model", ()))):
+                yield f"{section}.{name}.model.{axis} is an axis of this entry too; keep one of them"
+            if section != "sweeps" and "axes" in entry:
+                rows = count_points(entry["axes"]) * count_values(entry.get("times") or entry.get("scan") or [None])
+                if rows > LARGEST_TABLE:
+                    limit = f"at most {LARGEST_TABLE:,} are computed; give a smaller num"
+                    yield f"{section}.{name}.axes makes {rows:,} points or rows; {limit}"
+    for section, number in (("operating", "starts"), ("transit", "parts")):
+        runs = count_values(config[section]["acceleration"]) * config[section][number]
+        if runs > LARGEST_TABLE:
+            yield f"{section}.{number} makes {runs:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
+
+
+def friction(config: dict, defaults: dict) -> Iterator[str]:
+    """Static friction below sliding friction, in the model and in all models that change one of them."""
+    changed = {"model": config["model"]}
+    for section in ENTRIES:
+        for name, entry in config[section].items():
+            axes = {key: ends(axis) for key, axis in entry.get("axes", {}).items()}
+            changed[f"{section}.{name}"] = entry.get("model", {}) | axes
+    changed |= {f"{section}.model": config[section].get("model", {}) for section in ("orbits", "attractors")}
+    changed |= {f"companion.presets.{name}": model for name, model in config["companion"]["presets"].items()}
+    for key, own in changed.items():
+        model = config["model"] | own
+        if "static_friction" in model and own.keys() & {"friction", "static_friction"}:
+            values = (model[name] for name in ("friction", "static_friction"))
+            sliding, static = (value if isinstance(value, list) else [value] for value in values)
+            if min(static) < max(sliding):
+                yield (
+                    f"{key} has static_friction = {min(static)!r} below friction = {max(sliding)!r}; give a larger "
+                    "static_friction, or leave it out to make both equal, or give a smaller friction"
+                )
+
+
+def sweeps(config: dict, defaults: dict) -> Iterator[str]:
+    rows = config["sharing"]["rows"]
+    for name, entry in config["sweeps"].items():
+        points, shards = count_points(entry["axes"]), count_shards(config, entry)
+        if shards > MOST_SHARDS:
+            yield (
+                f"sweeps.{name}.axes makes {points:,} rows in {shards:,} jobs; at most {MOST_SHARDS:,} are allowed: "
+                f"give a smaller num, or raise sharing.rows = {rows}"
+            )
+
+
+def steps(config: dict, defaults: dict) -> Iterator[str]:
+    for section in METHOD_SECTIONS:
+        for name, entry in config[section].items():
+            key = f"{section}.{name}.step" if "step" in entry else f"solver.step (of {section}.{name})"
+            for variant in variants(name, entry).values():
+                filled = fill_defaults(config, section, variant)
+                for frequency in values_of(filled, "frequency") if "step" in filled else ():
+                    yield from faults_of_step(key, filled["step"], filled["duration"], frequency)
+
+
+def faults_of_step(key: str, step: float, duration: float, frequency: float) -> Iterator[str]:
+    given = f"{key} = {step!r} s"
+    largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
+    whole = max(1, round(duration / step))
+    if step > duration:
+        yield f"{given} is longer than its duration of {duration!r} s; take less"
+    elif step > largest * (1.0 + 1e-9):
+        yield f"{given} is too long for {frequency:g} Hz; take at most {largest:g} s, 1/{STEPS_IN_A_CYCLE} of a cycle"
+    elif duration / step > MOST_STEPS:
+        least = f"{duration / MOST_STEPS:g} s"
+        yield f"{given} makes {duration / step:.0e} steps of {duration!r} s; take at least {least}"
+    elif abs(duration / step - whole) > 1e-9 * whole:
+        remedy = f"take {duration / whole:.12g}, or another duration"
+        yield f"{given} does not divide its duration of {duration:.10g} s; {remedy}"
+
+
+def perturbations(config: dict, defaults: dict) -> Iterator[str]:
+    for name, entry in config["estimates"].items():
+        perturb, epsilon = entry["perturb"], entry["epsilon"]
+        values = values_of(resolve(config, "estimates", name), perturb)
+        if "conveyor" in values:
+            remedy = "give z0 a height in m, or perturb another parameter"
+            yield f"estimates.{name}.perturb = {perturb!r} has no effect because z0 is the word conveyor; {remedy}"
+        elif any(abs(value + epsilon - value - epsilon) > 0.5 * epsilon for value in values):
+            yield f"estimates.{name}.epsilon = {epsilon!r} is lost in the rounding of {perturb}; give a larger one"
+
+
+def critical(config: dict, defaults: dict) -> Iterator[str]:
+    for name, entry in config["critical"].items():
+        for part in ("axes", "model"):
+            if "z0" in entry.get(part, ()):
+                yield f"critical.{name}.{part}.z0 is the scanned parameter; give its values as critical.{name}.scan"
+    name, single = config["sensitivity"]["critical"], by_methods(config)
+    entry = resolve(single, "critical", name) if name in single["critical"] else None
+    if entry and (set(entry["axes"]) != {"acceleration"} or entry["method"] != "event"):
+        yield f"sensitivity.critical = {name!r} must name an entry over acceleration alone, with the method event"
+
+
+def times(config: dict, defaults: dict) -> Iterator[str]:
+    for name, entry in config["signals"].items():
+        duration = resolve(config, "signals", name)["duration"]
+        if entry["times"]["stop"] > duration:
+            key = f"signals.{name}.times.stop = {entry['times']['stop']!r} s"
+            yield f"{key} is beyond the duration of {duration!r} s; take less, or give signals.{name}.duration"
+    cycle = 1.0 / min(config["model"]["frequency"], config["drive"]["bounds"]["frequency"][0])
+    for key, longest in (
+        ("transit.longest", config["transit"]["longest"]),
+        ("drive.search.longest", config["drive"]["search"]["longest"]),
+    ):
+        if longest < cycle:
+            reason = f"is shorter than the longest excitation cycle of model and drive.bounds ({cycle:.3g} s)"
+            yield f"{key} = {longest!r} s {reason}; give more"
+
+
+def orbits(config: dict, defaults: dict) -> Iterator[str]:
+    low, high = config["orbits"]["limits"]
+    for place, seed in enumerate(config["orbits"].get("seeds", [])):
+        if not low < seed["acceleration"] < high:
+            yield (
+                f"orbits.limits = {[low, high]!r} m/s² must hold the amplitude of orbits.seeds[{place}], "
+                f"{seed['acceleration']!r}, between them: its branch is followed to both sides"
+            )
+
+
+def dimensions(config: dict, defaults: dict) -> Iterator[str]:
+    for name, entry in config["dimensions"].items():
+        methods = {variant.get("method", config["solver"]["method"]) for variant in variants(name, entry).values()}
+        if entry["estimator"] != "paper" and methods != {"event"}:
+            yield (
+                f"dimensions.{name}.estimator = {entry['estimator']!r} follows the settled motion, which needs the "
+                "method event; give that method, or the estimator paper"
+            )
+
+
+def unknown_references(config: dict, defaults: dict) -> Iterator[str]:
+    """Names of tables, entries and presets that the config does not have."""
+    single = by_methods(config)
+    # A table that is no entry is known if it is in TABLES, or if the default config reads it.
+    read = [reference for section in (*FIGURES, "claims") for reference in references_of(defaults[section])]
+    tables = [*references(single), *(reference for reference in read if reference.split("/")[0] not in NAMED)]
+    fitted = single["critical"]
+    used = [
+        (f"{user}.{name}.{key}.{role}", table, tables)
+        for user in (*FIGURES, "claims")
+        for name, entry in config[user].items()
+        for key in ("tables", "caption_tables")
+        for role, table in entry.get(key, {}).items()
+    ]
+    used += [(f"scene_budget.reasons.{table}", table, tables) for table in config["scene_budget"]["reasons"]]
+    used += [(f"regressions.{name}.critical", one["critical"], fitted) for name, one in config["regressions"].items()]
+    used += [("sensitivity.critical", config["sensitivity"]["critical"], fitted)]
+    for user in ("companion", "map_check"):
+        used += [(f"{user}.maps[{place}]", name, single["sweeps"]) for place, name in enumerate(config[user]["maps"])]
+    used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
+    for key, name, known in used:
+        if name not in known:
+            yield f"{key} = {name!r} is unknown; {suggest_name(name, known)}"
+
+
+def figures(config: dict, defaults: dict) -> Iterator[str]:
+    tables = by_methods(config)
+    for section in FIGURES:
+        for figure, entry in config[section].items():
+            for file in (f"scripts/figures/plots/{figure}.py", f"scripts/figures/plots/{figure}.rst"):
+                if not (ROOT / file).is_file():
+                    yield f"{section}.{figure} has no {file}; a figure needs a plot script and a caption of its name"
+            for reference in entry["tables"].values():
+                if entry["needs"] == "feeding" and entry_of(tables, reference).get("needs") == "vertical":
+                    yield f"{section}.{figure} needs feeding, but {reference} has needs: vertical; remove it there"
+
+
+def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
+    """Tables and settings that the default config does not have: no plot script and no finding uses them."""
+    parts = [
+        (f"{section}.{name}", entry, defaults[section][name], ("tables", "caption_tables", "settings", "marks"))
+        for section in FIGURES
+        for name, entry in config[section].items()
+        if name in defaults[section]
+    ]
+    for name, claim in config["claims"].items():
+        # The default claim with the same finding, if possible with the same name.
+        claims = ({name: {}} | defaults["claims"]).values()
+        if default := next((one for one in claims if one.get("finding") == claim["finding"]), None):
+            parts.append((f"claims.{name}", claim, default, ("tables", "quantities", "settings")))
+        else:
+            remedy = suggest_name(claim["finding"], [one["finding"] for one in defaults["claims"].values()])
+            yield f"claims.{name}.finding = {claim['finding']!r} is not a finding of the default config; {remedy}"
+    for place, entry, default, keys in parts:
+        for key in keys:
+            given, known = entry.get(key, {}), default.get(key, {})
+            for name in (name for name in given if name not in known):
+                yield f"{place}.{key}.{name} is an unknown key; {suggest_name(name, known)}"
+            for name in (name for name in known if name not in given):
+                yield f"{place}.{key}.{name} is missing; add it"
+
+
+def calibration(config: dict, defaults: dict) -> Iterator[str]:
+    """Settings that contradict each other, and faults in the file of measurements."""
+    own = config["calibration"]
+    if config["parts"].get("calibrated") and "measurements" not in own:
+        yield "parts.calibrated needs measurements; name the config with calibration.measurements as well"
+    if (path := own.get("measurements")) is None:
+        return
+    static, lowest = config["model"].get("static_friction"), own["ranges"]["friction"][0]
+    if "friction" in own["parameters"] and static is not None and static <= lowest:
+        yield (
+            f"model.static_friction = {static!r} leaves no friction to search, because calibration.ranges.friction "
+            f"begins at {lowest!r}; begin lower, or take friction out of calibration.parameters"
+        )
+    try:
+        text = csv_table.read_text(path, "calibration.measurements", measurements.MOST_BYTES)
+        known = measurements.wanted(RANGES)
+        table = csv_table.parse(text, path, known, measurements.HEADER_UNITS, measurements.EXAMPLE)
+        measurements.parse(table, {**own, "model": config["model"]}, RANGES)
+    except csv_table.TableError as error:
+        yield from error.faults
+
+
+def excitation(config: dict, defaults: dict, states_frequency: bool) -> Iterator[str]:
+    """Faults in the file of an accelerometer and in its signal.
+
+    states_frequency : whether the user has stated the frequency, also if it is the default
+    """
+    own, clean = config["excitation"], config["clean_drive"]
+    if (share := STATEMENT["share"]) not in clean["shares"]:
+        yield f"clean_drive.shares = {clean['shares']!r} lacks {share!r}, the share of the statement on chaos; add it"
+    if (path := own.get("measured")) is None:
+        return
+    # Only configs with such a file need NumPy, SciPy and pandas.
+    from conveyor_pipeline.machine.excitation import faults, reading
+
+    if "rate" in own and "time" in own.get("columns", {}):
+        yield "excitation has both rate and columns.time; state one of them"
+        return
+    model = config["model"]
+    stated = states_frequency or model["frequency"] != defaults["model"]["frequency"]
+    settings = {**own, "inclination": model["inclination"], "frequency": model["frequency"] if stated else None}
+    try:
+        text = csv_table.read_text(path, "excitation.measured", reading.MOST_BYTES)
+        table = csv_table.parse(text, path, reading.wanted(own), reading.HEADER_UNITS, reading.EXAMPLE)
+        faults.checked(table, settings)
+    except csv_table.TableError as error:
+        yield from error.faults
+
+
+def precision(config: dict, defaults: dict) -> Iterator[str]:
+    duration = config["precision"]["duration"]
+    if abs(duration / LONGEST_STEP - round(duration / LONGEST_STEP)) > 1e-9:
+        yield f"precision.duration = {duration!r} s is not a multiple of the longest time step, {LONGEST_STEP} s"
+
+
+CHECKS = (
+    *(prefix, file_names, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
+    *(unknown_references, figures, unused_keys, calibration, precision),
+)
+
+
+@cache
+def default_config() -> dict:
+    return merge(*read_all(DEFAULT_FILES))
+
+
+def problems(config: dict, defaults: dict | None = None, states_frequency: bool = False) -> list[str]:
+    """All errors of a merged config, one line each; empty if there are none.
+
+    states_frequency : whether an overlay or the command line states model.frequency, also if it is the default
+    """
+    if errors := type_problems(config):
+        return errors
+    typed, defaults = MODEL.validate_python(config), default_config() if defaults is None else defaults
+    if faults := list(faults_of_scales(typed, defaults)):
+        return faults
+    # Converted values have the limits of their SI units, and a partial axis has what the default gives.
+    if errors := type_problems(typed := to_si(typed)):
+        return errors
+    lines = [line for check in CHECKS for line in check(typed, defaults)]
+    lines += excitation(typed, defaults, states_frequency)
+    return list(dict.fromkeys(lines))

@@ -1,0 +1,97 @@
+"""Errors of the config as lines that name the key, the fault and the remedy."""
+
+import difflib
+import math
+from collections.abc import Iterable
+from reprlib import Repr
+from textwrap import shorten
+from typing import Any
+
+from pydantic import ValidationError
+
+from conveyor_pipeline.config.model import MODEL
+from conveyor_pipeline.config.schema import options_of, schema_at, unit_of
+
+# Errors with a remedy: searching similar names for thousands of errors would take seconds.
+MOST_EXPLAINED = 200
+MOST_LINES = 6  # of a message: ten with the four lines that Snakemake adds
+SHORT = Repr()
+SHORT.maxstring = SHORT.maxother = 60
+format_value = SHORT.repr
+BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
+
+
+class ConfigError(Exception):
+    """A config that cannot be used; the message has at most six lines."""
+
+    def __init__(self, lines: list[str]):
+        head = "The config cannot be used"
+        if (more := len(lines) - MOST_LINES + 1) > 0:
+            lines = lines[: MOST_LINES - 1]
+            head += f"; the first {len(lines)} errors, {more} more"
+        super().__init__("\n".join([f"{head}:", *lines]))
+
+
+def suggest_name(name: Any, known: Iterable[str]) -> str:
+    """The remedy for an unknown name."""
+    close = difflib.get_close_matches(str(name)[:100], known, n=1)
+    return f"did you mean {close[0]}?" if close else f"there are {shorten(', '.join(known) or 'none', 300)}"
+
+
+def format_key(path: Iterable[str | int]) -> str:
+    """ "sweeps.mine.axes.z0[1]" for the path of a value."""
+    names = (part if len(str(part)) <= 64 and str(part).isprintable() else format_value(part) for part in path)
+    return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in names).lstrip(".") or "config"
+
+
+def explain(error: dict) -> str:
+    """One line for an error of pydantic."""
+    # Without the names of forms ("(span)"), and without "[key]" behind a name of the user's choice.
+    path = [part for part in error["loc"] if str(part)[:1] != "(" and part != "[key]"]
+    kind, value, is_name = error["type"], error["input"], error["loc"][-1:] == ("[key]",)
+    key, above, schema = format_key(path), format_key(path[:-1]), schema_at(path)
+    shown = f"{key} = {format_value(value)}"
+    if kind == "invalid_key" or (is_name and not isinstance(value, str)):
+        # {frequency: 50,0} has the key 0.
+        has_comma = type(value) is int and any("properties" in option for option in options_of(schema_at(path[:-1])))
+        remedy = "write decimal points, not commas" if has_comma else "put it in quotes"
+        return f"{above} has the key {value!r}, which is not text; {remedy}"
+    if is_name:
+        names = schema_at(path[:-1])["propertyNames"]
+        remedy = suggest_name(value, names["enum"]) if "enum" in names else f"give {names['patternErrorMessage']}"
+        return f"{above} has the unknown name {format_value(value)}; {remedy}"
+    if kind == "missing":
+        return f"{key} is missing"
+    if kind == "extra_forbidden":
+        known = [name for option in options_of(schema_at(path[:-1])) for name in option.get("properties", {})]
+        return f"{key} is an unknown key; {suggest_name(path[-1], known)}"
+    if kind == "value_error":
+        return f"{shown} {error['ctx']['error']}"
+    if kind == "string_pattern_mismatch":
+        return f"{shown} should be {schema['patternErrorMessage']}"
+    if kind == "dict_type" and value is None and path:
+        return f"{key} is empty; give keys below it, or delete it"
+    if kind == "string_type" and isinstance(value, int | float):
+        return f"{shown} is a number, not text; put it in quotes"
+    # "Input should be …", "List should have …"
+    unit, fault = unit_of(schema), error["msg"].partition(" ")[2]
+    for name, bound in error.get("ctx", {}).items():
+        fault = f"should be {BOUNDS[name]} {bound:g}" if name in BOUNDS else fault
+    if kind.endswith("_parsing"):
+        fault = fault.partition(",")[0]  # without "unable to parse string as a number"
+    fault = fault.replace(" after validation", "").replace("dictionary", "mapping")
+    remedy = ""
+    if kind == "less_than_equal" and unit == "rad" and (degrees := float(value)) <= 360:
+        remedy = f"; angles are in radians, {degrees:g}° are {math.radians(degrees):.4f} rad"
+    return f"{shown} {fault}{f' ({unit})' if unit not in ('', '1') else ''}{remedy}"
+
+
+def type_problems(config: Any, ignored: str = "") -> list[str]:
+    """Errors of the types of a config, one line each, without errors of the kind `ignored`."""
+    try:
+        MODEL.validate_python(config)
+    except ValidationError as invalid:
+        errors = [error for error in invalid.errors(include_url=False) if error["type"] != ignored]
+        more = [f"{format_key(error['loc'])}: {error['msg']}" for error in errors[MOST_EXPLAINED:]]
+        return [explain(error) for error in errors[:MOST_EXPLAINED]] + more
+    return []

@@ -1,0 +1,81 @@
+"""Read config files as YAML 1.2, and merge them.
+
+Snakemake reads the files of --configfile as YAML 1.1, which keeps the last of two equal keys, reads 050 as 40 and 1:30
+as 90, and 1e-8 as text. So overlays are read again here.
+"""
+
+import itertools
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from ruamel.yaml import YAML
+from ruamel.yaml.error import YAMLError
+from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
+from snakemake.utils import update_config
+
+from conveyor_pipeline.config.errors import ConfigError, format_key
+from conveyor_pipeline.config.stages import STAGES
+
+ROOT = Path(__file__).resolve().parents[2]
+DEFAULT_FILES = tuple(ROOT / f"config/defaults/{name}.yaml" for name in ("model", *STAGES))
+USER_FILE = ROOT / "config/config.yaml"  # an overlay of the defaults, below the files of --configfile
+
+
+def read(file: str | Path) -> dict:
+    """The content of a config file; ConfigError names the file, and the line if possible."""
+    try:
+        content = YAML(typ="safe").load(Path(file).read_text(encoding="utf-8"))
+    except OSError as error:
+        remedy = "name a config file (put targets before --configfile)"
+        raise ConfigError([f"{file}: {error.strerror}; {remedy}"]) from error
+    # LookupError and ValueError: a value that does not fit its tag, such as !!bool maybe or the date 2024-13-45.
+    except (YAMLError, LookupError, ValueError) as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f"{file}:{mark.line + 1}" if mark else file
+        raise ConfigError([f"{place}: is not valid YAML: {getattr(error, 'problem', error)}"]) from error
+    if not isinstance(content, dict):
+        raise ConfigError([f"{file}: has no keys with values; begin with a section such as model"])
+    return content
+
+
+def find_lines(file: str | Path) -> dict[tuple[str | int, ...], str]:
+    """FILE:LINE of the keys and list items of a config file, by their paths."""
+
+    def lines_below(node: Node, path: tuple) -> Iterator[tuple[tuple, str]]:
+        pairs = node.value if isinstance(node, MappingNode) else ()
+        items = enumerate(node.value) if isinstance(node, SequenceNode) else ()
+        named = itertools.chain(
+            ((key.value, key, value) for key, value in pairs), ((place, item, item) for place, item in items)
+        )
+        for part, marked, value in named:
+            yield (*path, part), f"{file}:{marked.start_mark.line + 1}"
+            yield from lines_below(value, (*path, part))
+
+    return dict(lines_below(YAML(typ="safe").compose(Path(file).read_text(encoding="utf-8")), ()))
+
+
+def name_lines(errors: Sequence[str], files: Sequence[str | Path]) -> list[str]:
+    """Errors that begin with a key, each with FILE:LINE of this key in the last file that has it."""
+    lines = {format_key(path): line for file in files for path, line in find_lines(file).items()}
+    named = []
+    for error in errors:
+        key = error.partition(" ")[0]
+        line = lines.get(key.rpartition(".")[0] if error == f"{key} is missing" else key)
+        named.append(f"{line}: {error}" if line else error)
+    return named
+
+
+def read_all(files: Sequence[str | Path]) -> list[dict]:
+    """The contents of config files."""
+    return [read(file) for file in files]
+
+
+def merge(*configs: dict) -> dict:
+    """A new config: each of `configs` merged over the previous ones, as Snakemake merges overlays.
+
+    Keys have the order of the first config that has them.
+    """
+    merged = {}
+    for config in configs:
+        update_config(merged, config)
+    return merged

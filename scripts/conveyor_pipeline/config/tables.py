@@ -1,0 +1,96 @@
+"""The tables of a config, and the settings of each table: the part of the config that its script needs.
+
+The rule that makes a table passes its settings to the script, which stores them in the table. A rule that reads the
+table expects the same settings, so a table that was made from other settings is refused. Snakemake would notice other
+settings only as long as it has its own records, which a copy of the results does not contain.
+"""
+
+import itertools
+
+from conveyor_pipeline.study.accuracy.scenes import SCENES
+from conveyor_pipeline.study.accuracy.settings import BUDGETED, precision_settings
+from conveyor_pipeline.common.table_settings import model_of
+
+from conveyor_pipeline.config.entries import ENTRIES, TIGHTER, resolve
+from conveyor_pipeline.config.stages import declared
+
+# Tables that are not entries, and the function that returns the settings of each. A table that is missing here depends
+# on the model and, if there is one, on the section of its name.
+TABLES = declared("TABLE_SETTINGS")
+# Kinds with a table for each entry, or for each scene.
+SCENE_TABLES = ("precision", "precision_times")
+NAMED = (*ENTRIES, *SCENE_TABLES)
+
+
+def references(config: dict) -> list[str]:
+    """All tables of a config that are entries, of a scene or in TABLES, as SECTION/NAME."""
+    entries = [f"{section}/{name}" for section in ENTRIES for name in config[section]]
+    scenes = [f"{kind}/{scene}" for kind in SCENE_TABLES for scene in SCENES]
+    return [*entries, *TABLES, *scenes]
+
+
+def references_of(entries: dict) -> list[str]:
+    """The tables that claims read, or figures with their captions."""
+    roles = [entry.get(key, {}) for entry in entries.values() for key in ("tables", "caption_tables")]
+    return sorted({reference for of_entry in roles for reference in of_entry.values()})
+
+
+def kind_of(reference: str) -> str:
+    """The kind of the table SECTION/NAME: its section if it is an entry or of a scene, else its name."""
+    section, name = reference.split("/")
+    return section if section in NAMED else name
+
+
+def entry_of(config: dict, reference: str) -> dict:
+    """The entry of the table SECTION/NAME, {} if the table is not an entry."""
+    section, name = reference.split("/")
+    return config[section].get(name, {}) if section in ENTRIES else {}
+
+
+def settings_of(config: dict, reference: str) -> dict:
+    """The settings of the table SECTION/NAME."""
+    section, name = reference.split("/")
+    if reference in TABLES:
+        return TABLES[reference](config)
+    if section in SCENE_TABLES:
+        return precision_settings(config, name)
+    if section not in ENTRIES:
+        return {**config.get(name, {}), "model": model_of(config)}
+    return config[section][name] if section == "regressions" else resolve(config, section, name)
+
+
+def budgeted_tables(config: dict) -> dict[str, list[str]]:
+    """The tables of converged trajectories that each figure draws and that the section `scene_budget` covers."""
+
+    def is_budgeted(reference: str) -> bool:
+        is_converged = entry_of(config, reference).get("method", "event") == "event"
+        is_covered = reference.split("/")[0] in BUDGETED
+        return is_covered and is_converged
+
+    return {
+        figure: [reference for reference in dict.fromkeys(entry["tables"].values()) if is_budgeted(reference)]
+        for figure, entry in config["figures"].items()
+    }
+
+
+def budgeted_entries(config: dict) -> dict[str, dict]:
+    """The settings of all budgeted tables, each with an axis over the amplitude."""
+    entries = {}
+    for reference in itertools.chain(*budgeted_tables(config).values()):
+        entry = settings_of(config, reference)
+        if "axes" not in entry:
+            entry = {**entry, "axes": {"acceleration": entry["acceleration"]}, "duration": None}
+        entries[reference] = entry
+    return entries
+
+
+def tighter_claims(config: dict) -> dict[str, dict]:
+    """The claims whose uncertainty is estimated, with tables of tighter tolerances for the converged solution."""
+    known, claims = set(references(config)), {}
+    for name in config["uncertainty"]["claims"]:
+        claim = config["claims"][name]
+        # A claim without a role of this name reads converged tables only.
+        roles = [role for role in claim["tables"] if role.startswith("converged")] or claim["tables"]
+        tighter = {role: claim["tables"][role] + TIGHTER for role in roles if claim["tables"][role] + TIGHTER in known}
+        claims[name] = claim | {"tables": claim["tables"] | tighter}
+    return claims

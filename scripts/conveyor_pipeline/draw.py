@@ -1,0 +1,39 @@
+"""The script of every rule that draws a figure: read its tables, call its plot function, save the figure."""
+
+import importlib
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+
+# Snakemake puts this folder last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from conveyor_pipeline.figures import style
+from conveyor_pipeline.common import tables
+from conveyor_pipeline.common.rule_log import logged
+
+
+def draw(name: str, paths: Mapping[str, str], expected: Mapping[str, list], settings: dict) -> style.Figure:
+    """Draw the figure `name` from its tables.
+
+    Parameters
+    ----------
+    paths : of the tables, by role in the plot function
+    expected : kind and settings that each table must have, by path
+    settings : of the figure
+
+    Raises
+    ------
+    pipeline.tables.TableError
+        names a file that is not the expected table, and the remedy
+    """
+    plot = importlib.import_module(f"figures.plots.{name}").plot
+    with style.applied():
+        return plot(**{role: tables.read(path, *expected[path]) for role, path in paths.items()}, **settings)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        name, params = snakemake.wildcards.figure, snakemake.params
+        figure = draw(name, dict(snakemake.input.items()), params.expected, params.settings)
+        style.save(figure, snakemake.output)

@@ -1,0 +1,18 @@
+"""The script of the rule that joins the shards of a table in the order of their rows."""
+
+import sys
+from functools import partial
+from pathlib import Path
+
+# Snakemake puts this folder last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from conveyor_pipeline.common import grid, tables
+from conveyor_pipeline.common.rule_log import logged
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        (kind,) = snakemake.output.keys()
+        params = snakemake.params
+        expected = partial(grid.columns_of_axes, params.settings["axes"])
+        tables.gather(snakemake.output[0], snakemake.input, kind, params.settings, params.points, expected)

@@ -1,0 +1,212 @@
+"""The posterior of the parameters, given measured velocities.
+
+A velocity counts with its density under the velocities of parts with random initial conditions (see `likelihood`), so
+that several coexisting velocities, and chaos, are information instead of noise.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from tqdm import tqdm
+
+from conveyor_pipeline.machine.calibration.credible_intervals import open_ends, quantiles, summarize, with_errors
+from conveyor_pipeline.machine.calibration.effort import EFFECTIVE, MOST_SEARCHES, SEARCHES
+from conveyor_pipeline.machine.calibration.importance_sampling import Sample, monte_carlo_error, pooled, sample
+from conveyor_pipeline.machine.calibration.likelihood import Conditions, conditions_of, deviations, is_known, log_densities, velocities, widths
+from conveyor_pipeline.machine.calibration.measurements import Measurement
+from conveyor_pipeline.machine.calibration.search_space import LOGARITHMIC, bounds_of, values_at
+from conveyor import UNITS, progress_bar
+from conveyor.elementary import exp, log
+
+DETERMINED, OPEN, NOT_DETERMINED = "determined", "open to one side", "not determined"
+NOT_CONVERGED = "not converged"
+# Searches agree, and no further one follows, unless the Monte Carlo error of a best value, or of an end of an interval,
+# is more than this share of the interval.
+REPEATABLE = 0.25
+# A set of parameters gets no further parts if even the first ones are this far below the best logarithmic likelihood.
+HOPELESS = 30.0
+# The search first takes measurements for less accurate than they are, so that it finds its way from far away.
+INFLATIONS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0)
+NUMBERS = ("best", "best_error", "low", "low_error", "high", "high_error")
+WIDE = 0.8  # of the searched range: a wider interval determines nothing
+
+
+class Data(NamedTuple):
+    """Measurements as arrays."""
+
+    measured: list[Measurement]
+    conditions: Conditions
+    of: np.ndarray  # number of the condition of each measurement, shape (r,)
+    velocity: np.ndarray  # m/s, shape (r,)
+    sd: np.ndarray  # m/s, shape (r,), NaN where none is given
+    plate: np.ndarray  # largest velocity of the plate, m/s, shape (r,)
+
+
+def data_of(measured: list[Measurement], model: dict) -> Data:
+    """The measurements and their conditions."""
+    conditions, of = conditions_of(measured, model)
+    velocity = np.array([one.velocity for one in measured])
+    sd = np.array([math.nan if one.sd is None else one.sd for one in measured])
+    return Data(measured, conditions, of, velocity, sd, conditions.plate[of])
+
+
+def log_factors(simulated: np.ndarray, data: Data, settings: dict, inflations: tuple[float, ...]) -> np.ndarray:
+    """Logarithm of the density of each measurement for each inflation of its standard deviation, shape (m, n, r).
+
+    simulated : velocities under each condition, shape (n, k, parts)
+    """
+    spread = widths(simulated)[:, data.of]
+    arguments = (data.velocity, simulated[:, data.of], data.sd, data.plate, settings["noise"], spread)
+    return np.array([log_densities(*arguments, inflation) for inflation in inflations])
+
+
+def runs_of_search(data: Data, settings: dict) -> int:
+    """The largest number of runs of one search."""
+    sets = settings["first"] + settings["rounds"] * settings["points"]
+    return sets * len(data.conditions.rows) * settings["parts"]
+
+
+def search_once(data: Data, settings: dict, number: int, near: np.ndarray | None, threads: int, bar: tqdm) -> Sample:
+    """The sample of one search; its number makes its random numbers differ from those of the others."""
+    best, rounds = -math.inf, 0
+    sd = deviations(data.velocity, data.sd, data.plate, settings["noise"])
+
+    def worth(few: np.ndarray) -> np.ndarray:
+        nonlocal best
+        log_likelihood = log_factors(few, data, settings, INFLATIONS[:1])[0].sum(axis=1)
+        best = max(best, log_likelihood.max())
+        known = is_known(few, data.velocity, data.of, sd, data.plate)
+        return (log_likelihood > best - HOPELESS)[:, None] & ~known
+
+    def follow(points: np.ndarray) -> np.ndarray:
+        nonlocal rounds
+        options = {"parts": settings["parts"], "seed": [settings["seed"], number, rounds]}
+        options |= {"threads": threads, "worth": worth}
+        simulated = velocities(values_at(points, settings), data.conditions, settings, **options)
+        rounds += 1
+        bar.update(simulated.size)
+        return log_factors(simulated, data, settings, INFLATIONS)
+
+    options = {name: settings[name] for name in ("first", "points", "rounds", "enough")}
+    begun = bar.n
+    found = sample(follow, bounds_of(settings), **options, seed=[settings["seed"], number], near=near)
+    bar.total -= runs_of_search(data, settings) - (bar.n - begun)  # the search may have ended early
+    return found
+
+
+def search(
+    data: Data,
+    settings: dict,
+    *,
+    near: np.ndarray | None = None,
+    searches: tuple[int, int] = (SEARCHES, MOST_SEARCHES),
+    threads: int = 1,
+    bar: tqdm | None = None,
+) -> Sample:
+    """A weighted sample of the posterior from independent searches, until they agree.
+
+    near : points of a related posterior, in the coordinates of the search space, shape (n, d)
+    searches : their number at first, which share the effective samples that are wanted, and at most
+    bar : progress over all runs of all searches; it counts the runs of the largest number of searches
+    """
+    first, most = searches
+    bar = progress_bar(total=most * runs_of_search(data, settings), label=None) if bar is None else bar
+    own, samples = settings | {"enough": settings["enough"] / first}, []
+    while len(samples) < most:
+        samples.append(search_once(data, own, len(samples), near, threads, bar))
+        posterior = pooled(samples)
+        if first <= len(samples) < most and agree(posterior, settings):
+            break
+    bar.total -= (most - len(samples)) * runs_of_search(data, settings)
+    return posterior
+
+
+def draw(posterior: Sample, count: int) -> np.ndarray:
+    """Places of `count` samples in proportion to their weights, evenly spaced in the sum of the weights."""
+    places = np.searchsorted(np.cumsum(posterior.weights), (0.5 + np.arange(count)) / count)
+    return np.minimum(places, len(posterior.weights) - 1)
+
+
+def centre(points: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """Median of each coordinate of a weighted sample, shape (d,); a repetition with another seed hardly moves it."""
+    return np.array([quantiles(column, weights, [0.5])[0] for column in points.T])
+
+
+def summary_of(posterior: Sample, weights: np.ndarray, settings: dict) -> np.ndarray:
+    """Best value and ends of the interval of each parameter, or their logarithms (LOGARITHMIC), shape (d, 3).
+
+    The best values belong to the medians of the coordinates.
+
+    weights : of the points, shape (n,), with the sum 1
+    """
+
+    def columns(points: np.ndarray) -> list[np.ndarray]:
+        return [log(one) if name in LOGARITHMIC else one for name, one in values_at(points, settings).items()]
+
+    summary = summarize(columns(posterior.points), weights)
+    summary[:, 0] = np.concatenate(columns(centre(posterior.points, weights)[None]))
+    return summary
+
+
+def errors(posterior: Sample, settings: dict) -> np.ndarray:
+    """Monte Carlo errors of what `summary_of` gives, shape (d, 3)."""
+    return monte_carlo_error(
+        posterior.weights, posterior.search, lambda weights: summary_of(posterior, weights, settings)
+    )
+
+
+def agree(posterior: Sample, settings: dict) -> bool:
+    """Whether another set of searches would give nearly the same best values and intervals."""
+    summary = summary_of(posterior, posterior.weights, settings)
+    return bool(np.all(errors(posterior, settings) <= REPEATABLE * (summary[:, 2] - summary[:, 1])[:, None]))
+
+
+def has_converged(posterior: Sample, settings: dict) -> bool:
+    """Whether there are enough effective samples, and the searches agree."""
+    return posterior.size >= EFFECTIVE and agree(posterior, settings)
+
+
+def summarize_parameters(posterior: Sample, settings: dict) -> list[dict]:
+    """The rows of the table of parameters; a search that has not converged has no numbers."""
+    searches = {"effective": posterior.size, "searches": int(posterior.search.max()) + 1}
+    if not has_converged(posterior, settings):
+        nothing = dict.fromkeys((*NUMBERS, "range_low", "range_high"), math.nan) | {"status": NOT_CONVERGED}
+        return [{"parameter": name, "unit": UNITS[name], **nothing, **searches} for name in settings["ranges"]]
+    bounds, middle = bounds_of(settings), centre(posterior.points, posterior.weights)
+    summary, deviation = summary_of(posterior, posterior.weights, settings), errors(posterior, settings)
+    rows = []
+    for column, name in enumerate(settings["ranges"]):
+        is_log = name in LOGARITHMIC
+        ends = np.tile(middle, (2, 1))
+        ends[:, column] = bounds[:, column]
+        range_low, range_high = values_at(ends, settings)[name]
+        best, low, high = summary[column]
+        open_low, open_high = open_ends(posterior.points[:, column], posterior.weights, bounds[:, column])
+        searched = math.log(range_high / range_low) if is_log else range_high - range_low
+        is_wide = high - low > WIDE * searched
+        status = (
+            NOT_DETERMINED if is_wide or (open_low and open_high) else OPEN if open_low or open_high else DETERMINED
+        )
+        if is_log:
+            best, low, high = exp(summary[column])
+        # An open end is the bound, beyond which smoothing may reach. The bounds of the damping belong to the best
+        # stiffness only, so that its interval may be longer.
+        low = min(low, range_low) if open_low else low
+        high = max(high, range_high) if open_high else high
+        if name != "damping":
+            low, high = max(low, range_low), min(high, range_high)
+        low, high = min(low, best), max(high, best)
+        numbers = with_errors(np.array([best, low, high]), deviation[column], is_log)
+        rows.append(
+            {
+                "parameter": name,
+                "unit": UNITS[name],
+                **numbers,
+                "range_low": range_low,
+                "range_high": range_high,
+                "status": status,
+                **searches,
+            }
+        )
+    return rows

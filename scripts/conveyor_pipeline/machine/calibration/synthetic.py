@@ -1,0 +1,63 @@
+"""Synthetic measurements from the library: parts whose parameters are known, measured with noise.
+
+`simulate` follows each part by itself, with a tighter tolerance than the calibration uses.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from conveyor_pipeline.machine.calibration.measurements import DEFAULTS
+from conveyor import Conveyor, Start, parameter_table, plate_heights, simulate
+
+TOLERANCE = 1e-9
+FORMAT = ".4g"
+# The measurements of config/examples/measured.yaml: the conveyor and the part, with the contact that a calibration
+# should find; lowest and highest amplitude (m/s²), number of amplitudes, parts at each of them, noise, and seed; the
+# box of initial heights (m), velocities (m/s) and phases (rad).
+EXAMPLE = {"frequency": 60.0, "angle": 0.35, "mass": 2.0e-3, "friction": 0.24, "damping": 0.7, "stiffness": 4.0e5}
+RANGE, AMPLITUDES, PARTS, NOISE, SEED = (26.0, 80.0), 10, 3, 0.02, 7
+BOX = {"height": (0.0, 0.5e-3), "vz0": (-0.2, 0.2), "psi0": (0.0, 2.0 * np.pi)}
+
+
+def true_velocity(
+    model: dict, acceleration: float, box: dict, random: np.random.Generator, duration: float = DEFAULTS["duration"]
+) -> float:
+    """Mean velocity (m/s) of one part with a random initial condition from the box.
+
+    duration : s over which the velocity is measured, and time on the track before
+    """
+    height, vz, phase = (float(random.uniform(*box[name])) for name in ("height", "vz0", "psi0"))
+    conveyor = Conveyor(**{**model, "acceleration": acceleration, "psi0": phase})
+    start = Start(float(height + plate_heights(parameter_table(conveyor).reshape(1))[0]), vz)
+    run = simulate(conveyor, start, duration=2.0 * duration, tolerance=TOLERANCE)
+    x = run.sample(np.array([duration, 2.0 * duration]))["x"]
+    return float((x[1] - x[0]) / duration)
+
+
+def measure(
+    model: dict, accelerations: Sequence[float], box: dict, noise: float, random: np.random.Generator, **options: float
+) -> list[tuple[float, float]]:
+    """Amplitude (m/s²) and velocity (m/s) of one part for each amplitude, with a relative `noise` of the velocity."""
+    rows = []
+    for acceleration in accelerations:
+        velocity = true_velocity(model, float(acceleration), box, random, **options)
+        rows.append((float(acceleration), velocity * (1.0 + noise * float(random.standard_normal()))))
+    return rows
+
+
+def csv_text(rows: Sequence[tuple[float, float]], comment: str, **others: float) -> str:
+    """A file of measurements that begins with a comment; `others` are further columns, equal in all rows."""
+    lines = [f"# {comment}", ",".join(["acceleration", "velocity", *others])]
+    for acceleration, velocity in rows:
+        lines.append(",".join([f"{acceleration:.5g}", f"{velocity:{FORMAT}}", *map(str, others.values())]))
+    return "\n".join([*lines, ""])
+
+
+def make() -> str:
+    """The file of measurements of the example."""
+    random = np.random.default_rng(SEED)
+    accelerations = np.repeat(np.linspace(*RANGE, AMPLITUDES), PARTS)
+    rows = measure(EXAMPLE, accelerations, BOX, NOISE, random)
+    made_by = "snakemake --force config/examples/measured.csv"
+    return csv_text(rows, f"Synthetic, not measured: made by `{made_by}`, with noise")

@@ -1,0 +1,60 @@
+"""What the harmonics of the measured drive change: transit with and without them, at the measured amplitude."""
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from conveyor_pipeline.machine.excitation.limits import MATTERS
+from conveyor_pipeline.machine.excitation.overlay import drive_of, harmonics_above_noise
+from conveyor_pipeline.machine.operating import transit
+from conveyor_pipeline.machine.operating.parts import VARIED
+from conveyor_pipeline.common import fields
+
+WITH, WITHOUT = DRIVES = ("with harmonics", "without harmonics")
+TABLES = {
+    "comparison": (
+        fields.text("drive", f"{' or '.join(DRIVES)}"),
+        fields.number("acceleration", "m/s²", "measured amplitude"),
+        *transit.MEASURES,
+    )
+}
+MORE = 8  # parts for each part of the transit table, because a change is smaller than the velocities
+SURE = 2.0  # standard errors from which two velocities differ
+YES, NO, PERHAPS = "yes", "no", "not known"
+
+
+def make(
+    parameters: pd.DataFrame,
+    harmonics: pd.DataFrame,
+    settings: dict,
+    *,
+    threads: int = 1,
+    progress: str | None = None,
+) -> pd.DataFrame:
+    """The table for the parameters and harmonics above the noise that the accelerometer has measured."""
+    model = settings["model"] | drive_of(parameters)
+    amplitude = np.array([model.pop("acceleration")])
+    above, tables = harmonics_above_noise(harmonics), []
+    for drive, own in ((WITH, above), (WITHOUT, [])):
+        measured = {**settings, "model": {**model, "harmonics": own}, "starts": MORE * settings["starts"]}
+        table = transit.measure(amplitude, measured, (VARIED,), threads=threads, progress=progress)
+        tables.append(table.drop(columns="population").assign(drive=drive))
+    return pd.concat(tables, ignore_index=True)
+
+
+def change(comparison: pd.DataFrame, name: str) -> dict[str, float]:
+    """A velocity `with` and `without` harmonics (m/s), its relative change, and the standard error of the change."""
+    rows = comparison.set_index("drive")
+    after, before = rows[name][WITH], rows[name][WITHOUT]
+    size = abs(before) or math.nan
+    error = math.hypot(*rows[f"{name}_stderr"][[WITH, WITHOUT]]) / size
+    return {"after": after, "before": before, "change": (after - before) / size, "stderr": error}
+
+
+def verdict(changes: list[dict[str, float]]) -> str:
+    """Whether harmonics matter: whether a velocity changes by more than MATTERS, and by more than chance."""
+    large = [one for one in changes if abs(one["change"]) > MATTERS]
+    if any(abs(one["change"]) > SURE * one["stderr"] for one in large):
+        return YES
+    return PERHAPS if large or any(math.isnan(one["change"]) for one in changes) else NO

@@ -1,0 +1,212 @@
+"""Parameters of the drive from its harmonics, with standard errors.
+
+The conventions are the model's. The phase of the excitation θ is zero where the fundamental normal to the track has its
+maximum, so that
+
+    normal = â sin φ [cos θ + Σ normal_k cos(kθ + normal_phase_k)],
+    along = â cos φ [cos(θ + ε) + Σ along_k cos(kθ + along_phase_k)].
+
+â cos φ and â sin φ are the amplitudes of the two fundamentals, so φ lies between 0 and π/2. A plate that throws
+backwards has an ε near π. Shares are positive, and phases lie in (-π, π].
+
+Standard errors come from the recording itself. What remains without the harmonics, shifted by k f, is the error of
+harmonic k as a slow function of time. Its spectrum near zero tells the variance of its mean, whether the noise is white
+or coloured, and also where the amplitude or the phase of the drive wanders. Amplitude (real part) and phase (imaginary
+part) have spectra of their own. All standard errors are scaled such that ±1.96 of them is a 95 % interval, although
+the variance is estimated from few numbers.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from scipy.stats import f as f_distribution
+from scipy.stats import t as t_distribution
+
+from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of
+from conveyor_pipeline.machine.excitation.modulation import modulation_of
+from conveyor_pipeline.machine.excitation.reading import AXES, Recording, turn
+from conveyor_pipeline.machine.excitation.sampling import CHECKED
+
+PARAMETERS = {"acceleration": "m/s²", "frequency": "Hz", "angle": "rad", "phase_shift": "rad"}
+SHARES = ("along", "along_phase", "normal", "normal_phase")
+# Frequencies on either side of a harmonic, in units of 1/T. The fit of the frequency takes a part of the first.
+FIRST, MOST_SIDEBANDS = 2, 24
+BLOCKS = 4096  # at most, into which the recording is summed; a block is short against the period of every sideband
+NORMAL = 1.96  # half width of a 95 % interval in standard errors
+# Chance that some harmonic counts as above the noise, if there are none.
+CHANCE = 0.01
+# 95 % quantile of the size of a complex number of pure noise, over 1.96: for shares below the noise, which have a bias.
+BELOW = math.sqrt(-2.0 * math.log(0.05)) / NORMAL
+
+
+class Noise(NamedTuple):
+    """Relative errors of the harmonics as slow functions of time, at frequencies m/T."""
+
+    amplitude: np.ndarray  # complex, real part of the error, axis j, order k, sideband m, shape (2, K, M)
+    phase: np.ndarray  # complex, imaginary part of the error (rad), same shape
+    added: np.ndarray  # variance of an amplitude or a phase from the steps of the converter, shape (2, K)
+    degrees: int  # of freedom of each variance
+
+    @property
+    def student(self) -> float:
+        """Factor from a standard deviation of few degrees of freedom to one whose 1.96-fold is a 95 % interval."""
+        return float(t_distribution.ppf(0.975, self.degrees)) / NORMAL
+
+
+def wrap(phase: np.ndarray) -> np.ndarray:
+    """Phases in (-π, π]."""
+    return math.pi - np.mod(math.pi - phase, 2.0 * math.pi)
+
+
+def phases_of(recording: Recording, fit: Fit) -> int:
+    """The number of different phases of the drive at which samples were taken."""
+    phases = np.mod((recording.time - fit.middle) * fit.frequency, 1.0)
+    return len(np.unique(np.round(phases, 4) % 1.0))
+
+
+def step_variance(recording: Recording, fit: Fit) -> np.ndarray:
+    """Variance of each amplitude (m²/s⁴) from the steps of the converter, shape (2,).
+
+    Steps act as noise if the noise is larger than a step. Otherwise they distort the signal. If the samples fall on
+    ever new phases, the steps q make harmonics with the mean square 0.0246 q³/A (from Blachman 1985). If every cycle
+    is sampled at the same phases, only the samples of one cycle average the errors of the steps.
+    """
+    step = recording.quanta.max()
+    noise = np.maximum((fit.residual**2).mean(axis=1) - step**2 / 12.0, 0.0)
+    distortion = 0.0123 * step**3 / np.abs(fit.amplitudes[:, 0]) + step**2 / (6.0 * phases_of(recording, fit))
+    return distortion * np.exp(-4.0 * math.pi**2 * noise / step**2)
+
+
+def timing_variance(recording: Recording, fit: Fit) -> np.ndarray:
+    """Variance of each amplitude (m²/s⁴) from errors of the times that the noise does not show, shape (2, K).
+
+    Errors of the phase with the variance σ² reduce an amplitude of order k by k² σ²/2. Rounded times whose errors
+    repeat in every cycle make harmonics, as the steps of a converter do.
+    """
+    part = slice(0, CHECKED)
+    scatter = modulation_of(recording.time[part], fit._replace(residual=fit.residual[:, part])).scatter
+    orders = np.arange(1, fit.orders + 1)
+    rounding = 2.0 * math.pi * fit.frequency * recording.resolution
+    repeated = rounding**2 / (12.0 * phases_of(recording, fit)) * np.abs(fit.amplitudes[:, :1]) ** 2
+    return repeated + (0.5 * orders**2 * scatter**2 * np.abs(fit.amplitudes)) ** 2
+
+
+def noise_of(recording: Recording, fit: Fit) -> Noise:
+    """The errors of the harmonics near their frequencies."""
+    time, count = recording.time - fit.middle, len(recording.time)
+    duration = duration_of(recording.time)
+    cycles = fit.frequency * duration
+    last = min(FIRST + MOST_SIDEBANDS - 1, math.ceil(cycles) - 1)
+    shifts = np.arange(FIRST, last + 1)
+    begins = np.linspace(0, count, min(count, BLOCKS), endpoint=False).astype(np.int64)
+    sizes = np.diff([*begins, count])
+    middles = np.add.reduceat(time, begins) / sizes
+    turns = np.exp(-2j * math.pi * shifts[:, None] * middles / duration)  # shape (M, blocks)
+    first = np.exp(-2j * math.pi * fit.frequency * time)
+    # What the fit takes out of the noise, too.
+    scale = 2.0 / count * math.sqrt(count / (count - 2.0 * fit.orders - 2.5))
+    above, below = np.empty((2, 2, fit.orders, len(shifts)), dtype=np.complex128)
+    wave = np.ones_like(first)
+    for order in range(fit.orders):
+        wave *= first
+        for axis in range(2):
+            blocks = np.add.reduceat(fit.residual[axis] * wave, begins)
+            above[axis, order], below[axis, order] = scale * (turns @ blocks), scale * (np.conj(turns) @ blocks)
+    size = fit.amplitudes[:, :, None]
+    above, below = above / size, below / size
+    added = (step_variance(recording, fit)[:, None] + timing_variance(recording, fit)) / np.abs(fit.amplitudes) ** 2
+    return Noise(0.5 * (above + np.conj(below)), -0.5j * (above - np.conj(below)), added, 2 * len(shifts))
+
+
+def variance(error: np.ndarray) -> np.ndarray:
+    """Variance of the mean of a slow function of time, from its spectrum near zero along the last axis."""
+    return (np.abs(error) ** 2).mean(axis=-1)
+
+
+class Doubt(NamedTuple):
+    """Systematic errors that the noise does not show."""
+
+    mount: float = 0.0  # rad, of the direction of the axes
+    scale: float = 0.0  # relative, of the accelerations
+    rate: float = 0.0  # relative, of the sampling rate
+
+
+NONE = Doubt()
+
+
+def values_of(amplitudes: np.ndarray, frequency: float) -> dict[str, float]:
+    """The value of each of PARAMETERS."""
+    along, normal = amplitudes[:, 0]
+    return {
+        "acceleration": math.hypot(abs(along), abs(normal)),
+        "frequency": frequency,
+        "angle": math.atan2(abs(normal), abs(along)),
+        "phase_shift": float(wrap(np.angle(along) - np.angle(normal))),
+    }
+
+
+def parameters(recording: Recording, fit: Fit, noise: Noise, doubt: Doubt = NONE) -> dict[str, tuple[float, float]]:
+    """Value and standard error of each of PARAMETERS."""
+    along, normal = fit.amplitudes[:, 0]
+    acceleration = math.hypot(abs(along), abs(normal))
+    cosine, sine = abs(along) / acceleration, abs(normal) / acceleration
+    by_axis, added = noise.amplitude[:, 0], noise.added[:, 0]
+    # The phase ωt, to which every harmonic contributes with its weight in the least squares.
+    orders = np.arange(1, fit.orders + 1)
+    weights = orders * np.abs(fit.amplitudes) ** 2
+    total = (orders * weights).sum()
+    phase = np.einsum("jk,jkm->m", weights, noise.phase) / total
+    spread = variance(phase) + (weights**2 * noise.added).sum() / total**2
+    errors = {
+        "acceleration": acceleration**2
+        * (variance(cosine**2 * by_axis[0] + sine**2 * by_axis[1]) + cosine**4 * added[0] + sine**4 * added[1]),
+        # The slope of a straight line through the phase of white noise (Rife and Boorstyn 1974).
+        "frequency": 12.0 * spread / (2.0 * math.pi * duration_of(recording.time)) ** 2,
+        "angle": (sine * cosine) ** 2 * (variance(by_axis[1] - by_axis[0]) + added.sum()),
+        "phase_shift": variance(noise.phase[0, 0] - noise.phase[1, 0]) + added.sum(),
+    }
+    values = values_of(fit.amplitudes, fit.frequency)
+    others = values_of(turn(fit.amplitudes, doubt.mount), fit.frequency * (1.0 + doubt.rate))
+    others["acceleration"] *= 1.0 + doubt.scale
+    changes = {name: others[name] - values[name] for name in PARAMETERS}
+    changes["phase_shift"] = float(wrap(changes["phase_shift"]))
+    return {
+        name: (values[name], math.hypot(noise.student * math.sqrt(errors[name]), changes[name])) for name in PARAMETERS
+    }
+
+
+def shares_of(amplitudes: np.ndarray, orders: np.ndarray) -> dict[str, np.ndarray]:
+    """Shares and phases of the harmonics of some orders, by column name."""
+    zero, columns = np.angle(amplitudes[1, 0]), {}
+    for axis, name in enumerate(AXES):
+        columns[name] = np.abs(amplitudes[axis, 1:] / amplitudes[axis, 0])
+        columns[f"{name}_phase"] = wrap(np.angle(amplitudes[axis, 1:]) - orders * zero)
+    return columns
+
+
+def harmonics(fit: Fit, noise: Noise, doubt: Doubt = NONE) -> dict[str, np.ndarray]:
+    """Shares and phases of the harmonics of orders 2 and higher with their standard errors, and which of them are above
+    the noise, by column name, each of shape (K - 1,)."""
+    orders = np.arange(2, fit.orders + 1)
+    tests = 2 * len(orders)
+    columns: dict[str, np.ndarray] = {"order": orders}
+    values, others = shares_of(fit.amplitudes, orders), shares_of(turn(fit.amplitudes, doubt.mount), orders)
+    for axis, name in enumerate(AXES):
+        share, phase = values[name], values[f"{name}_phase"]
+        own = variance(noise.amplitude[axis]) + noise.added[axis], variance(noise.phase[axis]) + noise.added[axis]
+        # Power over the mean power of noise, two numbers over twice as many as an amplitude or a phase has.
+        ratio = 2.0 / (own[0] + own[1])[1:]
+        above = ratio / 2.0 > f_distribution.isf(CHANCE / max(tests, 1), 2, 2 * noise.degrees)
+        relative = noise.student * np.sqrt(own[0][1:] + own[0][0])
+        columns[name] = share
+        columns[f"{name}_stderr"] = np.hypot(share * relative * np.where(above, 1.0, BELOW), others[name] - share)
+        columns[f"{name}_phase"] = phase
+        of_zero = variance(noise.phase[1])[0] + noise.added[1, 0]
+        error = noise.student * np.sqrt(own[1][1:] + orders**2 * of_zero)
+        error = np.hypot(error, wrap(others[f"{name}_phase"] - phase))
+        # A harmonic below the noise may have any phase.
+        columns[f"{name}_phase_stderr"] = np.where(above, error, math.pi / NORMAL)
+        columns[f"{name}_above_noise"] = above
+    columns["above_noise"] = columns["along_above_noise"] | columns["normal_above_noise"]
+    return columns

@@ -1,0 +1,292 @@
+"""Recordings that cannot be used: too few cycles, aliasing, clipping, a second frequency, wrong times or units.
+
+The config check calls `check` before any job starts. Each function below looks for one kind of fault.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from conveyor_pipeline.machine.excitation.gravity import direction_fault, gravity_of, size_fault
+from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of, first_fit, gaps_of, sampling_rate, steadiness
+from conveyor_pipeline.machine.excitation.modulation import Modulation, alternates, modulation_of, timing_line
+from conveyor_pipeline.machine.excitation.reading import DIRECTIONS, UNITS, Recording, parse
+from conveyor_pipeline.machine.excitation.sampling import CHECKED, MOST_EQUAL, MOST_GAPS, resolve
+
+LEAST_CYCLES = 8
+LEAST_PER_CYCLE = 8  # samples; with fewer, harmonics of low orders are aliased
+# Amplitudes (m/s²) of which one unit or the other is wrong: no plate has less to convey with, or survives more.
+LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
+MOST_DISPLACEMENT = 0.1  # m
+MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
+OTHER_FREQUENCY = 0.01  # relative difference from a stated frequency: more than clocks differ, and than a motor slips
+MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
+MOST_RATE_ERROR = 2e-3  # relative standard error of the sampling rate
+MOST_SCATTER = 0.3  # rad, of the phase: times that the samples were not taken at
+OUTLIER = 20.0  # times the 95 % quantile of a column, from which a sample is no vibration
+UNSTEADY = 0.15  # relative standard deviation of the amplitude, above which its mean is no parameter of the drive
+NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does not vibrate
+# A clipped signal stays at its extreme value far longer than near it.
+NEAR, SPIKE, PLATEAU, FLAT, LEAST_FLAT = 0.002, 4.0, 3.0, 0.01, 20
+
+
+def first_clipped(values: np.ndarray, quantum: float) -> int | None:
+    """The first sample at the largest value if the values are cut off there, else None."""
+    extreme, width = values.max(), max(1.5 * quantum, NEAR * np.ptp(values))
+    at = values >= extreme - 1e-9 * np.ptp(values)
+    near = np.count_nonzero((values >= extreme - width) & ~at)
+    count, plateaus = np.count_nonzero(at), np.count_nonzero(np.diff(at.astype(np.int8), prepend=0) == 1)
+    # Samples of every cycle at the same phases repeat an extreme value, too, but then all values repeat.
+    is_varied = len(np.unique(values[~at])) > 0.5 * len(values)
+    is_flat = count >= PLATEAU * plateaus or (is_varied and count >= max(LEAST_FLAT, FLAT * len(values)))
+    return int(np.argmax(at)) if plateaus > 1 and is_flat and count > SPIKE * near else None
+
+
+def clipped(readings: np.ndarray, quantum: float) -> int | None:
+    """The first sample at which readings are cut off, above or below; None if they are not."""
+    samples = [first_clipped(values, quantum) for values in (readings, -readings)]
+    return min((sample for sample in samples if sample is not None), default=None)
+
+
+class Signal(NamedTuple):
+    """A recording and what was fitted to it."""
+
+    recording: Recording
+    fitted: Fit
+    other: tuple[float, float] | None  # frequency (Hz) and amplitude (m/s²) of a line that is no harmonic
+    modulation: Modulation
+    settings: Mapping[str, Any]  # of the section `excitation`, with `inclination` and `frequency`, if it is stated
+
+    @property
+    def rate(self) -> float:
+        return sampling_rate(self.recording.time)
+
+    @property
+    def sizes(self) -> np.ndarray:
+        """Amplitudes of the fundamentals, m/s²."""
+        return np.abs(self.fitted.amplitudes[:, 0])
+
+
+def gap_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+    """A recording that consists of gaps."""
+    intervals, is_gap = gaps_of(recording.time)
+    if (missing := intervals[is_gap].sum()) > MOST_GAPS * intervals.sum():
+        yield (
+            int(recording.lines[np.argmax(is_gap) + 1]),
+            f"follows a gap, and gaps are {100.0 * missing / intervals.sum():.2g} % of the recording; keep a piece "
+            "between gaps",
+        )
+
+
+def reading_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+    """A column that is constant, has an outlier, or is cut off."""
+    for key, readings in zip(recording.columns, recording.readings, strict=True):
+        name, scale = recording.names[key].lstrip("-"), UNITS[recording.unit]
+        if np.ptp(readings) == 0.0:
+            yield None, f"has the same value in every line of the column {name}; check the sensor and its channel"
+            return
+        sizes = np.abs(readings - np.median(readings))
+        if sizes.max() > OUTLIER * np.quantile(sizes, 0.95) > 0.0:
+            sample = int(np.argmax(sizes))
+            yield (
+                int(recording.lines[sample]),
+                f"{name} = {readings[sample] / scale:.4g} stands out of all other values; delete the line, and "
+                "check the cable",
+            )
+            return
+        if (sample := clipped(readings, recording.quanta.max())) is not None:
+            yield (
+                int(recording.lines[sample]),
+                f"{name} = {readings[sample] / scale:.4g} is cut off there and in other cycles; record again "
+                "with a larger range of the sensor",
+            )
+
+
+def time_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+    """Times that are too coarse for the samples."""
+    equal = np.flatnonzero(np.diff(recording.time) == 0.0) + 1
+    remedy = "export the time with more digits, or, if the sensor measures evenly, state excitation.rate (Hz)"
+    if len(equal) > MOST_EQUAL * len(recording.time):
+        yield (
+            int(recording.lines[equal[0]]),
+            f"and {len(equal) - 1:,} further lines repeat the time of the line before; {remedy}",
+        )
+    elif recording.rate_error > MOST_RATE_ERROR:
+        yield None, f"has times so coarse that its rate is known to {100 * recording.rate_error:.2g} % only; {remedy}"
+
+
+def count_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """Too few cycles or too few samples in a cycle."""
+    frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
+    cycles, per_cycle = duration_of(signal.recording.time) * frequency, signal.rate / frequency
+    if cycles < LEAST_CYCLES - 0.1:
+        yield None, f"holds {cycles:.2g} cycles of {frequency:.3g} Hz; record at least {LEAST_CYCLES}"
+    elif per_cycle < LEAST_PER_CYCLE - 0.1:
+        repeated = " (without lines that repeat the one before)" if signal.recording.repeated else ""
+        yield (
+            None,
+            f"has {per_cycle:.2g} samples in a cycle of {frequency:.4g} Hz{repeated}, or the drive is faster and "
+            f"aliased; sample at least {LEAST_PER_CYCLE} times in a cycle, with the sensor's anti-aliasing filter",
+        )
+    elif stated and stated > 0.5 * signal.rate:
+        alias = abs(stated - round(stated / signal.rate) * signal.rate)
+        if abs(alias - frequency) < 0.02 * frequency:
+            yield (
+                None,
+                f"is sampled at {signal.rate:.4g} Hz, at which a drive of {stated:g} Hz (model.frequency) looks like "
+                f"one of {frequency:.3g} Hz (aliasing); sample at {LEAST_PER_CYCLE * stated:g} Hz or more",
+            )
+
+
+def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """Samples that are lost, that come from two sensors, or whose times are wrong."""
+    found, time = signal.modulation, signal.recording.time
+    if line := timing_line(time[: signal.fitted.residual.shape[1]], signal.fitted, found):
+        every = 1.0 / line[0] + 1.0
+        right = signal.fitted.frequency * (every - 1.0) / every
+        yield (
+            None,
+            f"has a phase that swings by {line[1]:.2g} rad over {1.0 / line[0]:.4g} samples, as no vibration does: the "
+            f"times are not those of the samples. If every {every:.3g}th sample is lost, the drive vibrates at "
+            f"{right:.5g} Hz; record without losses, or with the time of each sample",
+        )
+    elif half := alternates(found):
+        yield (
+            None,
+            f"alternates from line to line between amplitudes that differ by {200.0 * half:.2g} %, as two sensors in "
+            "one file do, or one whose samples are lost regularly; keep the lines of one sensor, and record without "
+            "losses",
+        )
+    elif found.scatter > MOST_SCATTER:
+        scatter = found.scatter / (2.0 * math.pi * signal.fitted.frequency)
+        yield (
+            None,
+            f"has times that differ by {scatter:.2g} s (standard deviation) from those of the samples; record the "
+            "time of each sample, or, if the sensor measures evenly, state excitation.rate (Hz)",
+        )
+
+
+def steadiness_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """An amplitude that changes, or a second vibration."""
+    frequency, other = signal.fitted.frequency, signal.other
+    steady = steadiness(signal.recording.time[: signal.fitted.residual.shape[1]], signal.fitted)
+    if (deviation := steady["deviation"]) > max(UNSTEADY, 3.0 * steady["deviation_of_noise"]):
+        yield (
+            None,
+            f"is not steady: its amplitude at {frequency:.4g} Hz varies by {100.0 * deviation:.2g} % (standard "
+            "deviation); keep a piece in which the drive runs steadily, and record one drive alone",
+        )
+    elif other:
+        yield (
+            None,
+            f"vibrates at {frequency:.4g} Hz and, with {other[1]:.2g} m/s², at {other[0]:.4g} Hz, no multiple of it; "
+            "record one drive alone, and use the sensor's anti-aliasing filter, because a harmonic above half the "
+            "sampling rate looks like such a line",
+        )
+
+
+def frequency_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """A frequency other than the stated one, or one that no conveyor has."""
+    frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
+    acceleration = float(np.hypot(*signal.sizes))
+    displacement = acceleration / (2.0 * math.pi * frequency) ** 2
+    has_unit = size_fault(gravity_of(signal.fitted, 0.0), signal.recording.unit) is None
+    if has_unit and displacement > MOST_DISPLACEMENT:
+        yield (
+            None,
+            f"vibrates with {acceleration:.4g} m/s² at {frequency:.3g} Hz; the plate would move by {displacement:.3g} "
+            "m: set excitation.time_unit: ms if the times are milliseconds, or sample faster if the drive is faster "
+            "(aliasing)",
+        )
+    elif frequency > MOST_FREQUENCY:
+        yield (
+            None,
+            f"vibrates at {frequency:.5g} Hz, as no conveyor does; state the unit of its times as excitation.time_unit "
+            "(s, ms, µs, ns)",
+        )
+    elif stated and abs(frequency / stated - 1.0) > OTHER_FREQUENCY:
+        factor = frequency / stated
+        lost = f", if every {factor / (factor - 1.0):.3g}th sample is lost," if 1.0 < factor < 2.0 else ""
+        yield (
+            None,
+            f"vibrates at {frequency:.5g} Hz, but model.frequency is {stated:g}; its times are wrong by a factor of "
+            f"{factor:.5g}{lost} and its rate would be {signal.rate / factor:.5g} Hz, or set model.frequency: "
+            f"{frequency:.5g} if the drive runs at that frequency",
+        )
+
+
+def unit_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """A mean that is not gravity, or an amplitude that no conveyor has."""
+    unit, acceleration = signal.recording.unit, float(np.hypot(*signal.sizes))
+    gravity = gravity_of(signal.fitted, signal.settings.get("inclination", 0.0))
+    shown = f"vibrates with {acceleration / UNITS[unit]:.4g} {unit}, which is {acceleration:.4g} m/s²"
+    if fault := size_fault(gravity, unit):
+        yield None, fault
+    elif acceleration > MOST_ACCELERATION:
+        yield None, f"{shown}; no conveyor does: state another excitation.unit ({', '.join(UNITS)})"
+    elif acceleration < LEAST_ACCELERATION:
+        remedy = f"state another excitation.unit ({', '.join(UNITS)}; not a voltage), and record while the drive is on"
+        yield None, f"{shown}; that moves no part: {remedy}"
+    if not fault and (fault := direction_fault(signal.recording, gravity, signal.settings)):
+        yield None, fault
+
+
+def share_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """A fundamental that is missing, or too weak for its harmonics."""
+    fitted, sizes, directions = signal.fitted, signal.sizes, list(DIRECTIONS.values())
+    noise = np.sqrt(4.0 * (fitted.residual**2).mean(axis=1) / fitted.residual.shape[1])
+    for axis, direction in enumerate(directions):
+        if sizes[axis] < max(NO_FUNDAMENTAL * np.hypot(*sizes), 4.0 * noise[axis]):
+            yield (
+                None,
+                f"shows no vibration {direction} at {fitted.frequency:.4g} Hz ({sizes[axis]:.2g} m/s²), to which "
+                "shares of harmonics and phases refer; check excitation.columns and excitation.mount",
+            )
+            return
+    shares = np.abs(fitted.amplitudes) / sizes[:, None]
+    if shares.max() > MOST_SHARE:
+        axis, place = np.unravel_index(np.argmax(shares), shares.shape)
+        yield (
+            None,
+            f"vibrates {directions[axis]} {shares[axis, place]:.3g} times as much at "
+            f"{(place + 1) * fitted.frequency:.4g} Hz as at {fitted.frequency:.4g} Hz, to which shares of harmonics "
+            f"refer; model.harmonics take shares up to {MOST_SHARE:g}: check excitation.columns and excitation.mount, "
+            "and record one drive alone",
+        )
+
+
+# Where a group finds faults, the next ones would only find their consequences.
+OF_TIMES = ((time_faults,), (gap_faults,))
+OF_SIGNAL = ((count_faults,), (frequency_faults, sampling_faults, unit_faults), (steadiness_faults,), (share_faults,))
+
+
+def signal_of(recording: Recording, settings: Mapping[str, Any]) -> Signal:
+    """The first samples of a recording, with their fit."""
+    time = recording.time[:CHECKED]
+    fitted, other = first_fit(time, recording.acceleration[:, :CHECKED])
+    return Signal(recording, fitted, other, modulation_of(time, fitted), settings)
+
+
+def first_faults(subject: Any, groups: tuple) -> list[tuple[int | None, str]]:
+    """Line (None for the whole file) and description of each fault that the first group with faults finds."""
+    for group in groups:
+        if faults := [fault for check in group for fault in check(subject)]:
+            return faults
+    return []
+
+
+def checked(table: Any, settings: Mapping[str, Any]) -> Recording:
+    """The recording in a table of pipeline.csv_table, whose error names all faults with file and line.
+
+    settings : as in `parse`, and optionally `inclination` (rad) of the track and the stated `frequency` (Hz)
+    """
+    raw = parse(table, settings)
+    if faults := list(reading_faults(raw)):
+        raise table.error(faults)
+    recording = resolve(raw)
+    faults = first_faults(recording, OF_TIMES) or first_faults(signal_of(recording, settings), OF_SIGNAL)
+    if faults:
+        raise table.error(faults)
+    return recording

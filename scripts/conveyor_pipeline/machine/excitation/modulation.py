@@ -1,0 +1,89 @@
+"""Errors of a recording that follow the number of the sample, not the motion of the plate.
+
+What the fundamental A cos θ leaves of a signal, times cos θ and −sin θ, tells relative errors of its amplitude and
+errors of its phase as functions of time. A vibration of another frequency has both, in equal parts. Lost samples and
+wrong times have errors of the phase alone, and alternating samples of two sensors errors of the amplitude alone, also
+where a line of their spectrum lies at a multiple of the drive's frequency, like a harmonic.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from conveyor_pipeline.machine.excitation.harmonics import Fit, sampling_rate
+
+NEARBY = 41  # frequencies whose median is the noise at the one in the middle
+OUT_OF_NOISE = 6.0  # times the noise, from which a line is none of it
+ONE_SIDED = 3.0  # ratio of both parts from which a line is no vibration of another frequency,
+LOCKED = 20.0  # and the ratio at multiples of the drive's frequency, where two harmonics may look like it
+FOOT = 2.5  # half width of a line in units of 1/T, and
+SLOW = 4.0  # frequencies that are slow changes of the drive
+# Least amplitude of the phase error of lost samples, in units of the phase between two samples; 1/π in theory.
+LOST = 0.12
+LEAST_PHASE = 0.005  # rad, of a slower swing than a quarter of the drive's frequency: a motor may hunt
+LEAST_GAIN, ALTERNATING = 0.003, 5.0
+SCATTERED = 1.5  # ratio of the powers of both parts from which times scatter
+
+
+class Modulation(NamedTuple):
+    """Spectra of the errors of phase and amplitude over the number of the sample."""
+
+    frequency: np.ndarray  # cycles per sample, shape (m,)
+    phase: np.ndarray  # rad, amplitude, shape (m,)
+    gain: np.ndarray  # relative amplitude, shape (m,)
+    alternating: np.ndarray  # relative amplitude of an error of the amplitude and of the phase (rad) that changes its
+    # sign from sample to sample, of each axis, shape (2, 2)
+    alternating_noise: np.ndarray  # its standard deviation, shape (2,)
+    scatter: float  # rad, standard deviation of errors of the phase from sample to sample beyond those of the amplitude
+
+
+def median_nearby(values: np.ndarray) -> np.ndarray:
+    """Running median."""
+    from scipy.ndimage import median_filter
+
+    return median_filter(values, NEARBY, mode="mirror")
+
+
+def modulation_of(time: np.ndarray, fitted: Fit) -> Modulation:
+    """The errors that the fundamental leaves."""
+    count = 2 * (len(time) // 2)
+    first = np.exp(2j * math.pi * fitted.frequency * (time[:count] - fitted.middle))
+    wave, rest = first.copy(), fitted.residual[:, :count].copy()
+    for order in range(1, fitted.orders):
+        wave *= first
+        rest += (fitted.amplitudes[:, order, None] * wave).real
+    size = 0.5 * np.abs(fitted.amplitudes[:, 0]) ** 2
+    # Real part: error of the amplitude; imaginary part: of the phase.
+    products = rest * np.conj(fitted.amplitudes[:, :1] * first)
+    window = np.hanning(count)
+    both = products.sum(axis=0) / size.sum()
+    gain, phase = (np.abs(np.fft.rfft(window * part)) * 2.0 / window.sum() for part in (both.real, both.imag))
+    sign = window * np.where(np.arange(count) % 2 == 0, 1.0, -1.0) / window.sum()
+    alternating = np.array([(sign * part).sum(axis=1) / size for part in (products.real, products.imag)]).T
+    noise = np.sqrt((fitted.residual**2).mean(axis=1) / size) * math.sqrt((window**2).sum()) / window.sum()
+    floors = np.median(phase) ** 2, np.median(gain) ** 2
+    unit = 4.0 * (window**2).sum() / window.sum() ** 2 * math.log(2.0)
+    scatter = math.sqrt((floors[0] - floors[1]) / unit) if floors[0] > SCATTERED * floors[1] else 0.0
+    return Modulation(np.fft.rfftfreq(count), phase, gain, alternating, noise, scatter)
+
+
+def timing_line(time: np.ndarray, fitted: Fit, found: Modulation) -> tuple[float, float] | None:
+    """Frequency (cycles per sample) and amplitude (rad) of the strongest error of the phase that no vibration makes."""
+    count, drive = 2 * (len(time) // 2), fitted.frequency / sampling_rate(time)
+    width = max(1, math.ceil(FOOT))
+    near = np.max([np.roll(found.gain, shift) for shift in range(-width, width + 1)], axis=0)
+    own = np.abs(found.frequency - np.round(found.frequency / drive) * drive) * count < FOOT
+    least = np.maximum(LOST * 2.0 * math.pi * drive, np.where(found.frequency < 0.25 * drive, LEAST_PHASE, 0.0))
+    counts = found.phase > np.where(own, LOCKED, ONE_SIDED) * near
+    counts &= (found.phase > OUT_OF_NOISE * median_nearby(found.phase)) & (found.phase > least)
+    counts &= found.frequency * count > SLOW
+    place = int(np.argmax(np.where(counts, found.phase, 0.0)))
+    return (float(found.frequency[place]), float(found.phase[place])) if counts[place] else None
+
+
+def alternates(found: Modulation) -> float | None:
+    """Half of the relative difference of the amplitudes of every first and every second sample, or None."""
+    gain, phase = np.abs(found.alternating).T
+    counts = (gain > np.maximum(LEAST_GAIN, 8.0 * found.alternating_noise)) & (gain > ALTERNATING * phase)
+    return float(gain.max()) if counts.all() else None

@@ -1,0 +1,70 @@
+"""Operating chart over the amplitude: regimes, velocities, and the share of initial conditions with the fastest one."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from conveyor import throw_velocity
+from conveyor_pipeline.figures import style
+from conveyor_pipeline.machine.figures.basin_stability import ends_of, throw_axis
+from conveyor_pipeline.machine.operating.regimes import BESIDE, CHAOS, ONE, SEVERAL, UNKNOWN, summarize_amplitudes
+
+LOOKS = {
+    ONE: {"facecolor": "#56B4E9"},
+    SEVERAL: {"facecolor": "#F0E442"},
+    BESIDE: {"facecolor": "white", "edgecolor": style.STATE_COLOURS["chaos"], "hatch": "//////"},
+    CHAOS: {"facecolor": style.STATE_COLOURS["chaos"]},
+    UNKNOWN: {"facecolor": style.STATE_COLOURS["undecided"]},
+}
+
+
+def draw_regimes(strip: Axes, shares: pd.DataFrame, regimes: pd.DataFrame) -> list[Patch]:
+    """Draw a strip with the regime at each amplitude, below an axis for the throw number. Returns legend handles."""
+    amplitudes = np.sort(shares.acceleration.unique())
+    begin, end = ends_of(amplitudes)
+    for row in regimes.itertuples():
+        left, right = begin[np.searchsorted(amplitudes, row.begin)], end[np.searchsorted(amplitudes, row.end)]
+        strip.axvspan(left, right, linewidth=0.0, **LOOKS[row.regime])
+    strip.set_yticks([])
+    strip.spines[["left", "bottom"]].set_visible(False)
+    strip.tick_params(bottom=False)
+    throw_axis(strip, shares)
+    return [Patch(**look, label=regime) for regime, look in LOOKS.items() if (regimes.regime == regime).any()]
+
+
+def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
+    """Draw shares and regimes of motion."""
+    figure = style.figure(style.PAGE, 108.0)
+    strip, velocities, share = figure.subplots(3, 1, sharex=True, height_ratios=(0.35, 3.0, 2.0))
+    handles = draw_regimes(strip, shares, regimes)
+    amplitudes = np.sort(shares.acceleration.unique())
+
+    best = summarize_amplitudes(shares)
+    slowest = shares.groupby("acceleration").mean_velocity.min()
+    if best.best.isna().all():
+        style.say(share, "no motion has a mean velocity")
+    else:
+        velocities.fill_between(amplitudes, slowest, best.best, color="0.88", linewidth=0.0)
+        velocities.plot(best.acceleration, best.best, color="black", label="fastest motion")
+        look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (3, 2))}
+        velocities.plot(best.acceleration, best["mean"], label="mean over all initial conditions", **look)
+        velocities.plot(amplitudes, slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion")
+    velocities.plot(amplitudes, throw_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK)
+    velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
+    style.velocity_axis(velocities.yaxis)
+
+    low, high = (100.0 * (best.best_share + side * best.stderr).clip(0.0, 1.0) for side in (-2.0, 2.0))
+    share.fill_between(best.acceleration, low, high, color="0.75", linewidth=0.0, step="mid")
+    share.plot(best.acceleration, 100.0 * best.best_share, color="black", drawstyle="steps-mid")
+    share.set_ylim(0.0, 104.0)
+    share.set_ylabel("share of the\nfastest motion in %")
+    share.set_xlabel(style.AMPLITUDE)
+    style.limit_x(share, amplitudes)
+    if len(amplitudes) == 1:
+        style.say(velocities, "a single amplitude; give more for lines")
+    figure.align_ylabels([velocities, share])
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
+    velocities.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)
+    return figure

@@ -1,0 +1,189 @@
+"""Where to run a conveyor so that its parts arrive fast, or evenly, and which change of a parameter helps there.
+
+There are two aims. `fast`: the 5 % quantile of the transit velocity is largest, so that nearly all parts are fast.
+`even`: the relative spread is least among the amplitudes with at least half of that quantile. Both must hold within a
+relative margin of the amplitude, because no drive holds its amplitude exactly. The parts are the varied ones.
+"""
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+import pandas as pd
+
+from conveyor import RANGES, throw_number
+from conveyor_pipeline.machine.operating.parts import VARIED, population, with_calibration
+from conveyor_pipeline.machine.operating.transit import MEASURES, PROBABILITIES, follow, measure, spread_of, summarize_populations
+from conveyor_pipeline.common import fields
+
+FAST, EVEN = "fast", "even"
+RESAMPLES = 400  # of the parts, for the standard errors of changes
+ENOUGH = 0.5  # of the largest 5 % quantile, which an even amplitude must have
+AIM = fields.text("aim", f"{FAST}: largest 5 % quantile of the transit velocity, {EVEN}: least relative spread")
+TABLES = {
+    "advice": (
+        AIM,
+        fields.number("acceleration", "m/s²", "recommended amplitude of the excitation"),
+        fields.number("throw_number", "1", "throw number Γ"),
+        *MEASURES,
+        fields.number("velocity_worst", "m/s", "smallest 5 % quantile of the velocity within the margin"),
+        fields.number("spread_worst", "1", "largest relative spread within the margin"),
+        fields.number("back_worst", "1", "largest share of parts that have moved back within the margin"),
+        fields.text("states", "states of motion at the nearest amplitude of the table of shares, with their shares"),
+        fields.number("states_acceleration", "m/s²", "that amplitude"),
+    ),
+    "changes": (
+        AIM,
+        fields.text("parameter", "changed parameter"),
+        fields.number("value", "SI", "new value of the parameter"),
+        *MEASURES,
+        fields.number("gain", "1", "relative change of the 5 % quantile of the velocity, with the same parts"),
+        fields.number("gain_stderr", "1", "standard error of gain, from resamples of the parts"),
+        fields.number("widening", "1", "relative change of the relative spread, with the same parts"),
+        fields.number("widening_stderr", "1", "standard error of widening, from resamples of the parts"),
+    ),
+}
+
+
+def best(scores: np.ndarray, worst_of: Callable[[int], float]) -> int | None:
+    """The place with the largest worst score within the margin; None if no score is above -inf.
+
+    scores : shape (m,), NaN where a score is not known
+    worst_of : the worst score within the margin of a place, which is not above the score of the place
+    """
+    chosen, highest = None, -np.inf
+    for place in np.argsort(-scores, kind="stable"):
+        if not scores[place] > highest:  # nor are the scores of the remaining places
+            break
+        if (worst := worst_of(int(place))) > highest:
+            chosen, highest = int(place), worst
+    return chosen
+
+
+def choose(rows: pd.DataFrame, around: Callable[[int], pd.DataFrame]) -> dict[str, int]:
+    """The place of the recommended amplitude of each aim that can be met.
+
+    rows : measures of varied parts over the amplitude
+    around : the measures at a place and at the ends of its margin
+    """
+    fast = best(rows.velocity_05.to_numpy(), lambda place: around(place).velocity_05.min(skipna=False))
+    if fast is None:
+        return {}
+    needed = ENOUGH * around(fast).velocity_05.min()
+    if needed <= 0.0:
+        return {FAST: fast}
+
+    def evenness(measures: pd.DataFrame) -> np.ndarray:
+        return np.where(measures.velocity_05 >= needed, -measures.spread, -np.inf)
+
+    even = best(evenness(rows), lambda place: evenness(around(place)).min())
+    return {FAST: fast} if even is None else {FAST: fast, EVEN: even}
+
+
+def with_parameter(model: dict, parameter: str, value: float) -> dict:
+    """A model with another value of one parameter; the static friction keeps its ratio to the friction."""
+    changed = {**model, parameter: value}
+    if parameter == "friction" and "static_friction" in model:
+        changed["static_friction"] = model["static_friction"] * value / model["friction"]
+    return changed
+
+
+def relative_change(after: np.ndarray, before: np.ndarray) -> np.ndarray:
+    """The change in units of the size before; NaN for a size of 0."""
+    return (after - before) / np.where(before, np.abs(before), np.nan)
+
+
+def effects(before: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """Relative changes of the 5 % quantile and of the relative spread of velocities, shape (..., parts), stacked."""
+    old, new = (np.quantile(velocity, PROBABILITIES, axis=-1) for velocity in (before, after))
+    return np.stack([relative_change(new[0], old[0]), relative_change(spread_of(new), spread_of(old))])
+
+
+def compare(before: np.ndarray, after: np.ndarray, seed: int) -> dict[str, float]:
+    """The effects of a change on the velocities of parts, shape (n,), and their standard errors.
+
+    Resamples draw the same parts before and after the change (paired bootstrap: Efron and Tibshirani 1993).
+    """
+    if len(before) == 0:
+        return dict.fromkeys(("gain", "widening", "gain_stderr", "widening_stderr"), np.nan)
+    drawn = np.random.default_rng(seed).integers(len(before), size=(RESAMPLES, len(before)))
+    (gain, widening), errors = effects(before, after), effects(before[drawn], after[drawn]).std(axis=-1, ddof=1)
+    return {"gain": gain, "widening": widening, "gain_stderr": errors[0], "widening_stderr": errors[1]}
+
+
+def neighbours(model: dict, changes: dict[str, float]) -> tuple[list[tuple[str, float]], list[tuple[str, float]]]:
+    """Parameters with their values after changes up and down: those in the range of the model, and the others."""
+    values = [(name, model[name] + sign * change) for name, change in changes.items() for sign in (-1.0, 1.0)]
+    inside = [(name, value) for name, value in values if RANGES[name][0] <= value <= RANGES[name][1]]
+    return inside, [one for one in values if one not in inside]
+
+
+def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
+    """Measures if one parameter at a time is increased or decreased, at an amplitude (m/s²)."""
+    model, amplitude, parts = settings["model"], np.array([acceleration]), settings["starts"]
+    changed, _ = neighbours(model, changes)
+    if not changed:
+        return []
+    models = [model, *(with_parameter(model, *one) for one in changed)]
+    populations = [population(amplitude, {**settings, "model": one}) for one in models]
+    run = follow(np.concatenate(populations), settings, threads=threads)
+    velocity, is_right = run.velocity[:, 0].reshape(-1, parts), (run.status == "ok").reshape(-1, parts)
+    measures, rows = summarize_populations(run, parts).to_dict("records"), []
+    for place, (parameter, value) in enumerate(changed, start=1):
+        both = is_right[0] & is_right[place]
+        rows.append(
+            measures[place]
+            | compare(velocity[0, both], velocity[place, both], settings["seed"])
+            | {"parameter": parameter, "value": value}
+        )
+    return rows
+
+
+def describe_states(shares: pd.DataFrame, acceleration: float) -> dict[str, str | float]:
+    """The states at the nearest amplitude of the table of shares, "chaos 85 %, second 15 %", and that amplitude."""
+    nearest = shares.acceleration.iloc[(shares.acceleration - acceleration).abs().argmin()]
+    by_state = (
+        shares[shares.acceleration == nearest].groupby("state").share.sum().sort_values(ascending=False, kind="stable")
+    )
+    states = ", ".join(f"{state} {round(100.0 * share, 1):g} %" for state, share in by_state.items())
+    return {"states": states, "states_acceleration": nearest}
+
+
+def make(
+    transit: pd.DataFrame,
+    shares: pd.DataFrame,
+    settings: dict,
+    samples: pd.DataFrame | None = None,
+    parameters: pd.DataFrame | None = None,
+    *,
+    threads: int = 1,
+) -> dict[str, dict]:
+    """The columns of the tables of advice and of changes.
+
+    samples, parameters : as in transit.make
+    """
+    followed, margin = with_calibration(transit.attrs, samples, parameters), settings["margin"]
+    rows = transit[transit.population == VARIED].reset_index(drop=True)
+    unit = throw_number(1.0, **followed["model"])
+
+    @cache
+    def around(place: int) -> pd.DataFrame:
+        ends = rows.acceleration[place] * np.array([1.0 - margin, 1.0 + margin])
+        return pd.concat([rows.iloc[[place]], measure(ends, followed, (VARIED,), threads=threads)])
+
+    advice, changes = [], []
+    for aim, place in choose(rows, around).items():
+        row = rows.iloc[place]
+        worst = {
+            "velocity_worst": around(place).velocity_05.min(),
+            "spread_worst": around(place).spread.max(),
+            "back_worst": around(place).back.max(),
+        }
+        own = {"aim": aim, "throw_number": unit * row.acceleration} | describe_states(shares, row.acceleration)
+        advice.append(row.to_dict() | worst | own)
+        changed = changes_at(row.acceleration, followed, settings["changes"], threads=threads)
+        changes += [{"aim": aim, **one} for one in changed]
+    return {
+        "advice": fields.columns(advice, TABLES["advice"]),
+        "changes": fields.columns(changes, TABLES["changes"]),
+    }

@@ -1,0 +1,156 @@
+"""The operating chart in words: advice, a summary and a table, with all numbers from the tables."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+from conveyor import UNITS, plate_peaks
+from conveyor_pipeline.machine.operating.advice import ENOUGH, EVEN, FAST, neighbours
+from conveyor_pipeline.machine.operating.parts import differences
+from conveyor_pipeline.machine.operating.regimes import CHAOS, ONE, SAME_VELOCITY, SEVERAL, SLIDES_AWAY, UNDECIDED, UNKNOWN, UNSETTLED, is_frictionless, merge_narrow, summarize_amplitudes
+from conveyor_pipeline.machine.operating.transit import QUANTILES, spread_stderr, time_of_drop
+from conveyor_pipeline.common import grid
+from conveyor_pipeline.common.templates import render
+
+# If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
+# -log(0.05) is 2.996.
+RULE_OF_THREE = 3.0
+WORTH_CHANGING = 0.01  # relative change of velocity or spread from which a change of a parameter is named
+CERTAIN = 2.0  # standard errors that it must exceed, too
+MOST_CHANGES = 4  # that are named
+MANY_LATE = 0.5  # share of late parts that a page points out
+STILL = 0.01  # of the largest velocity of the plate: slower parts do not count as parts that move forward
+DECIMALS = 6  # of velocities in m/s: smaller ones are rounding errors
+
+
+def summarize_shares(shares: pd.DataFrame) -> dict:
+    """The settings (`search`), amplitudes (m/s²) and throw numbers of the table of shares.
+
+    `unseen_share` is the largest share of initial conditions that may lead to a motion that none of the tested ones
+    leads to. `located` is the largest distance between neighbouring amplitudes with different regimes, at least the
+    resolution of the config. `unsettled` is the number of amplitudes at which a search ended before a state or a
+    velocity was known.
+    """
+    amplitudes = np.sort(shares.acceleration.unique())
+    regime = summarize_amplitudes(shares).regime.to_numpy()
+    between = np.diff(amplitudes)[regime[1:] != regime[:-1]]
+    return {
+        "search": shares.attrs,
+        "same_velocity": SAME_VELOCITY,
+        "unseen_share": RULE_OF_THREE / shares.attrs["starts"],
+        "amplitudes": amplitudes,
+        "unsettled": shares[shares.status.isin((UNDECIDED, UNSETTLED))].acceleration.nunique(),
+        "located": between.max(initial=shares.attrs["resolution"]),
+        "step": np.diff(amplitudes).max(initial=0.0),
+        "throw_numbers": (shares.vertical.min(), shares.vertical.max()),
+    }
+
+
+def moves_forward(transit: pd.DataFrame) -> bool:
+    """Whether more than 5 % of the parts move forward, and not only a little, at any amplitude."""
+    _, conveyors = grid.product({"acceleration": transit.acceleration.tolist()}, transit.attrs["model"])
+    return bool((transit.velocity_95 > STILL * plate_peaks(conveyors).vx).any())
+
+
+def summarize_regimes(regimes: pd.DataFrame, merged: pd.DataFrame) -> dict[str, list[dict]]:
+    """The rows of the table of merged regimes, by regime, and the row in which chaos begins, of the whole table."""
+    names = {"one": ONE, "several": SEVERAL, "only_chaos": CHAOS, "unknown": UNKNOWN}
+    parts = {name: merged[merged.regime == regime] for name, regime in names.items()}
+    parts |= {"rows": merged, "chaos": regimes[regimes.states.str.contains("chaos")].head(1)}
+    return {name: rows.to_dict("records") for name, rows in parts.items()}
+
+
+def amplitudes_inside(shares: pd.DataFrame, intervals: list[dict], regime: str) -> pd.DataFrame:
+    """The amplitudes with a regime in some intervals of merged regimes, as `summarize_amplitudes` describes them."""
+    amplitudes = summarize_amplitudes(shares)
+    inside = [amplitudes.acceleration.between(row["begin"], row["end"]) for row in intervals]
+    return amplitudes[(amplitudes.regime == regime) & np.any(inside, axis=0)]
+
+
+def describe_one_velocity(shares: pd.DataFrame, interval: dict) -> dict:
+    """An interval with one velocity, with its states and velocities, but not those of intervals merged into it."""
+    own = shares[shares.acceleration.isin(amplitudes_inside(shares, [interval], ONE).acceleration)]
+    states = own.groupby("state").starts.sum().sort_values(ascending=False, kind="stable").index
+    ends = own.mean_velocity.min(), own.mean_velocity.max()
+    return {**interval, "states": list(states), "velocity": [round(end, DECIMALS) + 0.0 for end in ends]}
+
+
+def summarize_fastest(shares: pd.DataFrame, intervals: list[dict]) -> dict:
+    """The fastest motions at the amplitudes with several velocities in some intervals.
+
+    `best` and `best_share` are ranges of their velocities (m/s) and of the shares of initial conditions that reach
+    them, and `most` is the amplitude with the largest share.
+    """
+    own = amplitudes_inside(shares, intervals, SEVERAL)
+    ranges = {name: (own[name].min(), own[name].max()) for name in ("best", "best_share")}
+    ranges["best"] = [round(end, DECIMALS) + 0.0 for end in ranges["best"]]
+    return {**ranges, "most": own.loc[own.best_share.idxmax()].to_dict()}
+
+
+def select_changes(aim: str, changes: pd.DataFrame) -> list[dict]:
+    """The changes of one parameter that serve the aim best: more velocity, or less spread."""
+    own = changes[changes.aim == aim]
+    effect, error = (own.gain, own.gain_stderr) if aim == FAST else (-own.widening, own.widening_stderr)
+    helps = (effect > WORTH_CHANGING) & (effect > CERTAIN * error)
+    order = effect[helps].sort_values(ascending=False, kind="stable").index
+    return own.loc[order[:MOST_CHANGES]].replace({np.nan: None}).to_dict("records")
+
+
+def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -> dict:
+    """The settings of the transit table, how parts differ, and the advice of each aim with its best changes."""
+    quantiles, errors = (advice[[f"{name}{end}" for name in QUANTILES]].to_numpy().T for end in ("", "_stderr"))
+    advice = advice.assign(spread_stderr=spread_stderr(quantiles, errors))
+    rows = {
+        row["aim"]: row | {"changes": select_changes(row["aim"], changes)}
+        for row in advice.replace({np.nan: None}).to_dict("records")
+    }
+    tested, untested = neighbours(transit.attrs["model"], advice.attrs["changes"])
+    return {
+        "track": transit.attrs,
+        "dropped": float(time_of_drop(transit.attrs["model"]["frequency"], transit.attrs["longest"])),
+        "tested": tested,
+        "untested": untested,
+        **differences(transit.attrs),
+        "fast": rows.get(FAST),
+        "even": rows.get(EVEN),
+        # Two standard errors of the difference between both spreads.
+        "unequal": CERTAIN * math.sqrt(np.square(advice.spread_stderr).sum()),
+    }
+
+
+def make(
+    template: str,
+    transit: pd.DataFrame,
+    shares: pd.DataFrame,
+    regimes: pd.DataFrame,
+    advice: pd.DataFrame,
+    changes: pd.DataFrame,
+    assumed: Sequence[str],
+) -> str:
+    """The page from its template and its tables; `assumed` are differences of parts that the config does not state."""
+    merged = merge_narrow(regimes, advice.attrs["margin"])
+    velocities = ["velocity_low", "best_low", "best_high"]
+    merged[velocities] = merged[velocities].round(DECIMALS) + 0.0  # no negative zero
+    values = summarize_advice(transit, advice, changes) | summarize_shares(shares) | summarize_regimes(regimes, merged)
+    values["one"] = [describe_one_velocity(shares, row) for row in values["one"]]
+    if values["several"]:
+        values["fastest"] = summarize_fastest(shares, values["several"])
+    values |= {
+        "units": UNITS,
+        "assumed": {name: transit.attrs["spread"][name] for name in assumed},
+        "options": advice.attrs,
+        "forward": moves_forward(transit),
+        "still": STILL,
+        "enough": ENOUGH,
+        "many_late": MANY_LATE,
+        "ends": (transit.acceleration.min(), transit.acceleration.max()),
+        "frictionless": is_frictionless(transit.attrs["model"]),
+        "slides": (shares.status == SLIDES_AWAY).any(),
+        "merged": len(merged) < len(regimes),
+        # The digits to which the ends of intervals of amplitudes are known.
+        "digits": max(0, math.ceil(-math.log10(shares.attrs["resolution"]))),
+        "throw_per_amplitude": shares.vertical.iloc[-1] / shares.acceleration.iloc[-1],
+    }
+    return render(template, values)

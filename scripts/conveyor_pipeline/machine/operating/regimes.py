@@ -1,0 +1,170 @@
+"""Regimes: intervals of amplitudes with one velocity, with several velocities, with chaos."""
+
+import numpy as np
+import pandas as pd
+
+from conveyor_pipeline.common import fields
+
+ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
+    "one velocity",
+    "several velocities",
+    "chaos beside other motions",
+    "chaos only",
+    "unknown",
+)
+# Relative difference up to which two velocities count as equal, in units of the larger one.
+SAME_VELOCITY = 0.02
+# The status of a motion on a track that is too steep, see `track`.
+SLIDES_AWAY = "slides away"
+# The status of a motion whose state, or whose mean velocity, is not known after the cycles that the config allows.
+UNDECIDED, UNSETTLED = "state not decided", "mean velocity not settled"
+# The status of a state that was not found although it may exist, see `track`.
+NOT_ALL_SETTLED = "not all initial conditions settled"
+
+# Columns of the table `regimes`.
+COLUMNS = (
+    fields.count("number", "number of the interval of amplitudes, in ascending order"),
+    fields.text("regime", f"{', '.join(REGIMES)} (a state is undecided, or a velocity is not known)"),
+    fields.number("begin", "m/s²", "smallest computed amplitude of the interval"),
+    fields.number("end", "m/s²", "largest computed amplitude of the interval"),
+    fields.number("step", "m/s²", "largest distance between neighbouring computed amplitudes"),
+    fields.count("amplitudes", "number of computed amplitudes in the interval"),
+    fields.text("states", "states of motion that occur, the most frequent one first"),
+    fields.number("velocity_low", "m/s", "smallest mean velocity of any motion"),
+    fields.number("best_low", "m/s", "smallest velocity, over the amplitudes, of the fastest motion"),
+    fields.number("best_high", "m/s", "largest velocity of the fastest motion"),
+    fields.number("best_share_low", "1", "smallest share of initial conditions that reach the largest velocity"),
+    fields.number("best_share_high", "1", "largest share of initial conditions that reach the largest velocity"),
+    fields.number("best_share_stderr", "1", "largest standard error of these shares"),
+)
+
+
+def fill_in(model: dict) -> dict:
+    """A model with an inclination and a static friction."""
+    return {"inclination": 0.0, "static_friction": model["friction"]} | model
+
+
+def is_steep(model: dict) -> bool:
+    """Whether a track is too steep for friction to stop a part that slides."""
+    return bool(steepness(fill_in(model)) > 0)
+
+
+def is_frictionless(model: dict) -> bool:
+    """Whether nothing moves a part along a level track."""
+    return fill_in(model)["static_friction"] == 0.0
+
+
+def steepness(conveyors: np.ndarray | dict) -> np.ndarray:
+    """How steep tracks are, int64, shape (n,): 0 where friction stops a part that slides, 2 where it does not even hold
+    a part at rest, 1 between, where only parts that stick again and again have a mean velocity.
+
+    On average, the contact force is m g cos α. Sliding friction takes at most μ times as much.
+
+    conveyors : table of parameters, shape (n,), or a model
+    """
+    slope = np.abs(np.tan(conveyors["inclination"]))
+    return (slope > conveyors["friction"]).astype(np.int64) + (slope > conveyors["static_friction"])
+
+
+def same(velocity: np.ndarray, other: float) -> np.ndarray:
+    """Whether velocities count as equal to another: they differ by at most a share of the larger one."""
+    return np.abs(velocity - other) <= SAME_VELOCITY * np.maximum(np.abs(velocity), abs(other))
+
+
+def regime_of(state: np.ndarray, velocity: np.ndarray) -> str:
+    """The regime of one amplitude from states and velocities of its motions, shape (k,)."""
+    if np.isnan(velocity).any() or (state == "undecided").any():
+        return UNKNOWN
+    if (state == "chaos").all():
+        return CHAOS
+    if (state == "chaos").any():
+        return BESIDE
+    return ONE if same(velocity, velocity.max()).all() else SEVERAL
+
+
+def summarize_amplitudes(shares: pd.DataFrame) -> pd.DataFrame:
+    """At each amplitude of a table of shares, ascending: its regime, the velocity of the fastest motion (`best`), the
+    share of initial conditions that reach it (`best_share`) with its standard error (`stderr`), and the mean velocity
+    over all initial conditions (`mean`). `mean` is NaN if any velocity is not known, the others if none is known.
+    """
+    rows = []
+    for acceleration, motions in shares.groupby("acceleration"):
+        velocity, best = motions.mean_velocity.to_numpy(), motions.mean_velocity.max()
+        reach_it = np.nan if np.isnan(best) else float(motions.share[same(velocity, best)].sum())
+        rows.append(
+            {
+                "acceleration": acceleration,
+                "regime": regime_of(motions.state.to_numpy(), velocity),
+                "best": best,
+                "best_share": reach_it,
+                # Rounding may make the sum of shares slightly larger than 1.
+                "stderr": np.sqrt(max(reach_it * (1.0 - reach_it), 0.0) / motions.starts.sum()),
+                "mean": (motions.share * motions.mean_velocity).sum(skipna=False),
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame:
+    """The table of regimes from `summarize_amplitudes`: one row for each interval of amplitudes with one regime."""
+    numbers = (amplitudes.regime != amplitudes.regime.shift()).cumsum()
+    rows = []
+    for number, part in amplitudes.groupby(numbers):
+        begin, end = part.acceleration.min(), part.acceleration.max()
+        inside = shares[shares.acceleration.between(begin, end)]
+        states = inside.groupby("state").starts.sum().sort_values(ascending=False, kind="stable")
+        rows.append(
+            {
+                "number": number,
+                "regime": part.regime.iloc[0],
+                "begin": begin,
+                "end": end,
+                "step": part.acceleration.diff().max(),
+                "amplitudes": len(part),
+                "states": ", ".join(states.index),
+                "velocity_low": inside.mean_velocity.min(),
+                "best_low": part.best.min(),
+                "best_high": part.best.max(),
+                "best_share_low": part.best_share.min(),
+                "best_share_high": part.best_share.max(),
+                "best_share_stderr": part.stderr.max(),
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def join(rows: pd.DataFrame) -> pd.Series:
+    """One interval from neighbouring ones: the regime of the widest, the states and the range of velocities of all."""
+    by_width = rows.loc[(rows.right - rows.left).sort_values(ascending=False, kind="stable").index]
+    widest = by_width.iloc[0]
+    states = dict.fromkeys(", ".join(by_width.states).split(", "))  # each once, in this order
+    least = rows[["begin", "left", "velocity_low", "best_low", "best_share_low"]].min(skipna=False)
+    most = rows[["end", "right", "step", "best_high", "best_share_high", "best_share_stderr"]].max(skipna=False)
+    return pd.Series({**widest, **least, **most, "states": ", ".join(states), "amplitudes": rows.amplitudes.sum()})
+
+
+def merge_narrow(regimes: pd.DataFrame, margin: float) -> pd.DataFrame:
+    """The table of regimes without intervals that are narrower than a relative margin of the amplitude.
+
+    The narrowest interval is merged into its wider neighbour until none is too narrow. Unknown intervals stay, and take
+    no others, because what happens there may differ from what happens beside them. An interval ends half-way between
+    computed amplitudes.
+    """
+    between = 0.5 * (regimes.end.shift() + regimes.begin)
+    rows = regimes.assign(left=between.fillna(regimes.begin), right=between.shift(-1).fillna(regimes.end))
+    while True:
+        known = rows.regime != UNKNOWN
+        has_neighbour = known.shift(1, fill_value=False) | known.shift(-1, fill_value=False)
+        relative = ((rows.right - rows.left) / rows.right).where(known & has_neighbour, np.inf)
+        if relative.min() >= margin:
+            break
+        place = int(relative.argmin())
+        beside = [k for k in (place - 1, place + 1) if 0 <= k < len(rows) and known[k]]
+        wider = max(beside, key=lambda k: rows.right.iloc[k] - rows.left.iloc[k])
+        joined = join(rows.iloc[min(place, wider) : max(place, wider) + 1])
+        parts = [rows.iloc[: min(place, wider)], joined.to_frame().T, rows.iloc[max(place, wider) + 1 :]]
+        rows = pd.concat(parts, ignore_index=True)
+        # Neighbours with one regime are one interval.
+        number = (rows.regime != rows.regime.shift()).cumsum()
+        rows = pd.DataFrame([join(part) for _, part in rows.groupby(number)]).reset_index(drop=True)
+    return rows.drop(columns=["left", "right"]).infer_objects()

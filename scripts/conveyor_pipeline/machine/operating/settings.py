@@ -1,0 +1,168 @@
+"""Settings of the stage operating: where to run a conveyor, with units and ranges."""
+
+from collections.abc import Iterable
+from functools import partial
+from operator import itemgetter
+from typing import NotRequired
+
+from typing_extensions import TypedDict
+
+from conveyor import DESCRIPTIONS, UNITS
+from conveyor_pipeline.common.settings import MODEL_TYPES, THROW, Acceleration, Effort, Seed, Tolerance, Velocity, axis, described, dimensionless, interval, mapping, number, span, whole
+from conveyor_pipeline.common.table_settings import INITIAL_CONDITION, model_of
+
+DEVIATION = number("relative standard deviation", "of the value in the model", ge=0, le=1)
+
+
+# An overlay may give some keys of {start, stop, num} in SI units.
+AMPLITUDES = NotRequired[axis(Acceleration, DESCRIPTIONS["acceleration"], partial=True)]
+THROWS = axis(THROW, "throw numbers")
+
+
+class Operating(TypedDict):
+    dimensionless: dimensionless(
+        acceleration=THROWS,
+        resolution=number("width to which a bracket is halved", gt=0, le=1e3),
+        height=interval(number("height above the plate", ge=0, le=1e6), "initial heights", point=True),
+        vz0=interval(number("initial velocity", ge=-1e6, le=1e6), "initial velocities", point=True),
+    )
+    acceleration: AMPLITUDES
+    resolution: NotRequired[number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)]
+    height: NotRequired[interval(number("height above the plate", "m", ge=0, le=10), "initial heights", point=True)]
+    vz0: NotRequired[interval(Velocity, "initial velocities", point=True)]
+    psi0: interval(MODEL_TYPES["psi0"], "phases of the excitation", point=True)
+    starts: whole("random initial conditions per amplitude", 16, 10**6)
+    seed: Seed
+    tolerance: Tolerance
+
+
+class Parts(TypedDict):
+    friction: DEVIATION
+    damping: DEVIATION
+    stiffness: DEVIATION
+    mass: DEVIATION
+    acceleration: DEVIATION
+    calibrated: NotRequired[
+        described(bool, "draw friction, damping and stiffness from the samples of the calibration, too")
+    ]
+    seed: Seed
+
+
+class Transit(TypedDict):
+    dimensionless: dimensionless(acceleration=THROWS)
+    acceleration: AMPLITUDES
+    length: number("length of the track", "m", ge=1e-3, le=1e4)
+    longest: number("time after which a part is late", "s", gt=0, le=1e5)
+    parts: whole("parts with random initial conditions per amplitude", 8, 10**6)
+
+
+class Advice(TypedDict):
+    margin: number("relative error of the amplitude within which the advice must hold", gt=0, lt=1)
+    changes: mapping(
+        "changes of single parameters, up and down",
+        {"dimensionless": dimensionless(frequency=number("change of the frequency, over the model's", gt=0, lt=1))}
+        | {name: NotRequired[number(f"change of {name}", UNITS[name], gt=0)] for name in ("angle", "frequency")}
+        | {name: number(f"change of {name}", UNITS[name], gt=0) for name in ("friction", "inclination", "phase_shift")},
+    )
+    part_length: NotRequired[number("length of a part in the feeding direction", "m", gt=0, le=10)]
+
+
+class Throws(TypedDict):
+    throw_number: span(number("throw number a_z/(g cos α)", gt=0, le=100), "throw numbers")
+    starts: whole("random initial conditions per throw number", 16, 10**6)
+
+
+class Track(TypedDict):
+    dimensionless: dimensionless(acceleration=THROW)
+    acceleration: NotRequired[Acceleration]
+    inclination: span(MODEL_TYPES["inclination"], "inclinations of the track")
+    phase_shift: span(MODEL_TYPES["phase_shift"], "phase shifts of the drive")
+    starts: whole("random initial conditions per inclination", 2, 10**6)
+
+
+class DriveSearch(TypedDict):
+    parts: whole("parts per design", 8, 10**6)
+    dimensionless: dimensionless(longest=number("time for which a part is followed", gt=0, le=1e9))
+    longest: NotRequired[number("time for which a part is followed", "s", gt=0, le=1e5)]
+
+
+class DriveBounds(TypedDict):
+    dimensionless: dimensionless(
+        acceleration=interval(THROW, "throw numbers, at the model's angle"),
+        frequency=interval(number("frequency over the model's", gt=0, le=100), "frequencies"),
+    )
+    acceleration: NotRequired[interval(MODEL_TYPES["acceleration"], DESCRIPTIONS["acceleration"])]
+    frequency: NotRequired[interval(MODEL_TYPES["frequency"], DESCRIPTIONS["frequency"])]
+    angle: interval(MODEL_TYPES["angle"], DESCRIPTIONS["angle"])
+    phase_shift: interval(MODEL_TYPES["phase_shift"], DESCRIPTIONS["phase_shift"])
+
+
+class Drive(TypedDict):
+    bounds: described(DriveBounds, "search interval of each parameter")
+    displacement: number("largest displacement of the plate, â/ω² without harmonics", "m", gt=0, le=1)
+    velocity: number("least useful velocity of the slowest 5 % of the parts", "m/s", gt=0, le=100)
+    impact_speed: number("largest impact speed that a design may have", "m/s", gt=0, le=100)
+    back: number("largest share of the parts that may move back", ge=0, lt=1)
+    search: described(DriveSearch, "parts of each design of the search")
+    population: whole("population of NSGA-II", 4, 10**4)
+    generations: whole("generations of NSGA-II", 4, 10**5)
+
+
+SECTIONS = {
+    "operating": described(Operating, "shares of the attractors over the amplitude"),
+    "parts": described(Parts, "how parts differ"),
+    "transit": described(Transit, "velocities of parts along a track over the amplitude"),
+    "drift": mapping("drift and diffusion in chaos, and the spread over the track's length", {"effort": Effort}),
+    "advice": described(Advice, "advice on where to run the conveyor"),
+    "throws": described(Throws, "comparison with the textbook theory of throw conveyors"),
+    "track": described(Track, "velocity over inclination and phase shift"),
+    "drive": described(Drive, "search for the settings of the drive"),
+}
+
+
+def box_of(config: dict, *more: str) -> dict:
+    """The box from which initial conditions are drawn, and more keys of the section `operating`."""
+    return {name: config["operating"][name] for name in ("height", "vz0", "psi0", *more)}
+
+
+def box_settings(section: str, config: dict) -> dict:
+    """A section whose initial conditions are drawn from the box of the section `operating`."""
+    limits = {"settling": config["solver"]["settling"]}
+    own = {**box_of(config, "starts", "seed", "tolerance"), **config[section], **limits}
+    return {**own, "model": model_of(config, without=(*INITIAL_CONDITION, *config[section]))}
+
+
+def transit_settings(config: dict, without: Iterable[str] = ()) -> dict:
+    """The box of `operating`, the section `transit`, how its parts differ, and the model without some parameters."""
+    transit = {name: config["transit"][name] for name in ("acceleration", "length", "longest")}
+    own = {**box_of(config, "seed", "tolerance"), **transit, "starts": config["transit"]["parts"]}
+    return {**own, "spread": config["parts"], "model": model_of(config, without=(*INITIAL_CONDITION, *without))}
+
+
+def parts_settings(config: dict, without: Iterable[str] = ()) -> dict:
+    """The settings of the transit table without its amplitudes, for tables that follow the same parts at others."""
+    return {name: value for name, value in transit_settings(config, without).items() if name != "acceleration"}
+
+
+def drift_settings(config: dict) -> dict:
+    """The parts of the transit table without their differences."""
+    transit = {name: value for name, value in transit_settings(config).items() if name != "spread"}
+    return {**transit, **config["drift"]}
+
+
+def drive_settings(config: dict) -> dict:
+    """The search follows the parts of the transit table, within the error of the amplitude that the advice states."""
+    drive = config["drive"]
+    return {**parts_settings(config, without=drive["bounds"]), **drive, "margin": config["advice"]["margin"]}
+
+
+# The tables that are not entries, and the function that returns the settings of each.
+TABLE_SETTINGS = {
+    **dict.fromkeys(("operating/shares", "operating/regimes"), partial(box_settings, "operating")),
+    "operating/transit": transit_settings,
+    **dict.fromkeys(("operating/drift", "operating/track_lengths"), drift_settings),
+    **dict.fromkeys(("operating/advice", "operating/changes"), itemgetter("advice")),
+    "operating/throws": partial(box_settings, "throws"),
+    "operating/track": partial(box_settings, "track"),
+    **dict.fromkeys(("operating/drive_front", "operating/drive_generations"), drive_settings),
+}

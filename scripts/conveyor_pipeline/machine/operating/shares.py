@@ -1,0 +1,231 @@
+"""Basin stability: the motions that random initial conditions lead to, with shares and velocities, over the amplitude.
+
+The initial conditions are drawn independently from a box, so that the standard error of a share is binomial. Where the
+regime changes, steps of the amplitude are halved.
+"""
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from conveyor import LAST, Columns, continued, plate_peaks, sample_runs, sweep, throw_number
+from conveyor.elementary import cos, sin
+from conveyor_pipeline.machine.operating import regimes
+from conveyor_pipeline.machine.operating.parts import IDENTICAL, population
+from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.common.labelling import label_starts
+
+TABLES = {
+    "shares": (
+        fields.number("acceleration", "m/s²", "amplitude of the excitation"),
+        fields.number("vertical", "1", "throw number Γ: largest acceleration of the plate normal to it, in g cos α"),
+        fields.count("motion", "number of the motion at this amplitude, the fastest one first"),
+        *fields.STATE,
+        fields.number("longest_flight", "1", "longest flight, in excitation cycles; null for none"),
+        fields.count("starts", "initial conditions that lead to the motion"),
+        fields.number("share", "1", "share of all initial conditions that lead to the motion"),
+        fields.number("stderr", "1", "standard error of the share"),
+        fields.number("mean_velocity", "m/s", "mean feeding velocity of the motion; null where it is not known"),
+        fields.number("velocity_stderr", "m/s", "standard error of mean_velocity, from several trajectories"),
+        fields.number("impact_speed", "m/s", "largest speed of approach at an impact; 0 for none, null if unknown"),
+        fields.number("peak_force", "N", "largest contact force; null if unknown"),
+        fields.text("status", "ok, or why there is no velocity"),
+    ),
+    "regimes": regimes.COLUMNS,
+}
+
+# Two motions of one state and period are different if their longest flights differ by more, in excitation cycles.
+APART = 0.01
+# Amplitudes besides those of the config, after which boundaries between regimes are not located further.
+MOST_ADDED = 200
+# A mean velocity counts as converged if a run twice as long agrees within this fraction of the plate's largest
+# velocity.
+SETTLED = 1e-3
+NEGLIGIBLE = 1e-6  # of the plate's largest velocity; a smaller mean velocity is an error of the solver
+RUNS = 6  # each twice as long as the one before
+MOST_CYCLES = 4000  # upper limit of cycles of a brief run
+FOLLOWED = 8  # initial conditions per attractor from which its mean velocity is computed
+CYCLES = 250  # excitation cycles, at least, over which a mean velocity is computed
+FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
+
+
+def groups(labels: Columns, conveyor: np.ndarray) -> np.ndarray:
+    """The number of the motion that each label belongs to, int64, shape (n,); it ascends with the conveyor.
+
+    Labels of one motion have one conveyor, one state and one period, and their longest flights are neighbours.
+
+    conveyor : number of the conveyor of each label, shape (n,)
+    """
+    flights = np.nan_to_num(labels.longest_flight, nan=-1.0)
+    order = np.lexsort((flights, labels.period, labels.state, conveyor))
+    same = np.diff(flights[order]) <= APART
+    for column in (conveyor, labels.state, labels.period):
+        same &= column[order][1:] == column[order][:-1]
+    number = np.empty(len(order), dtype=np.int64)
+    number[order] = np.concatenate([[0], np.cumsum(~same)])
+    return number
+
+
+def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, threads: int = 1) -> np.ndarray:
+    """Parameters, shape (n,), that continue the motion normal to the track after some excitation cycles.
+
+    rows : parameters of trajectories, shape (n,)
+    cycles : of each trajectory, shape (n,)
+    """
+    durations = cycles / rows["frequency"]
+    ends = sweep(rows, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
+    return continued(rows, ends["z_end"], ends["vz_end"], durations)
+
+
+def last_quarters(
+    parameters: np.ndarray, durations: np.ndarray, tolerance: float, threads: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean feeding velocities (m/s) over the last quarters of runs, shape (n, k), and, for the last quarter of the
+    longest run, the largest speed of approach (m/s) and contact force (N), shape (n, 2), and the status.
+
+    durations : s, shape (n, k); the last quarter of each run begins after the end of the run before
+    """
+    times = np.stack([(1.0 - LAST) * durations, durations], axis=-1).reshape(len(durations), 2 * durations.shape[1])
+    runs = sample_runs(parameters, times, columns=["x"], tolerance=tolerance, threads=threads, chunk=4)
+    means = (runs.x[:, 1::2] - runs.x[:, ::2]) / (LAST * durations)
+    return means, np.column_stack([runs.impact_speed, runs.peak_force]), runs.status
+
+
+def velocities(
+    parameters: np.ndarray, labels: Columns, settings: dict, *, threads: int = 1
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean feeding velocity (m/s) of settled trajectories, shape (n,); the largest speed of approach (m/s) and contact
+    force (N) over the same cycles, whole periods of the motion, shape (n, 2); and the status.
+
+    Each trajectory is followed until it has settled, and then twice as long, until both mean velocities agree. They
+    never agree in chaos, where the mean is taken over the longer run. On a track that is too steep for sliding friction
+    they must agree in chaos, too, because the part may be about to slide away. A velocity that has not converged in the
+    last of RUNS runs is not known.
+
+    parameters, labels : shape (n,), and the labels of the trajectories
+    """
+    n, period = len(parameters), labels.period
+    # A motion without a period is not more settled in later cycles.
+    settled = np.where(period > 0, labels.cycles, np.minimum(labels.cycles, CYCLES))
+    velocity, status = np.full(n, np.nan), np.full(n, regimes.UNSETTLED, dtype=object)
+    peaks = np.full((n, 2), np.nan)
+    plate = plate_peaks(parameters).vx
+    # A mean over whole periods; the last quarter of a run is what a mean is taken over.
+    step = np.maximum(period, 1)
+    quarter = np.maximum(np.maximum(CYCLES, np.ceil((settled + FORGOTTEN) / 3.0)), step)
+    steep = regimes.steepness(parameters)
+    status[steep == 2], open_ = regimes.SLIDES_AWAY, np.flatnonzero(steep < 2)
+    # Every trajectory needs the second run, which contains the first; one integration gives both.
+    for doublings in ([0, 1], *([doubling] for doubling in range(2, RUNS))):
+        cycles = 4.0 * step[open_, None] * np.ceil(2.0 ** np.array(doublings) * (quarter / step)[open_, None])
+        durations = cycles / parameters["frequency"][open_, None]
+        means, peaks[open_], why = last_quarters(parameters[open_], durations, settings["tolerance"], threads)
+        failed = why != "ok"
+        status[open_[failed]] = why[failed]
+        for mean in means.T:
+            close = np.abs(mean - velocity[open_]) <= SETTLED * plate[open_]
+            velocity[open_] = mean
+        # A part that does not settle, and is faster than the plate ever is, does not stick again.
+        away = ~failed & ~close & (steep[open_] == 1) & (np.abs(velocity[open_]) > plate[open_])
+        status[open_[away]] = regimes.SLIDES_AWAY
+        known = ~failed & (close | ((period[open_] == 0) & (steep[open_] == 0)))
+        status[open_[known]] = "ok"
+        open_ = open_[~failed & ~away & ~known]
+    velocity[np.abs(velocity) <= NEGLIGIBLE * plate] = 0.0
+    velocity[status != "ok"] = peaks[status != "ok"] = np.nan
+    return velocity, peaks, status
+
+
+def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> np.ndarray:
+    """Durations (s) of runs whose last quarter has the mean velocity of settled normal motions, shape (n,).
+
+    The last quarter contains whole periods. In the three quarters before it, friction must be able to accelerate the
+    part to the velocity of the plate. The mean acceleration that remains for this is g (μ cos α - |sin α|), so tracks
+    that are nearly too steep need more than `cycles`.
+
+    parameters, period : shape (n,), and the period in excitation cycles, 0 for none, shape (n,)
+    cycles : least excitation cycles of a run
+    """
+    alpha, friction = parameters["inclination"], parameters["friction"]
+    left = parameters["gravity"] * (friction * cos(alpha) - np.abs(sin(alpha)))
+    along = parameters["acceleration"] * cos(parameters["angle"])
+    # Friction that cannot hold a sliding part does not slow it down however long the run is.
+    needed = np.where(left > 0.0, along / (2.0 * math.pi * 0.75 * np.maximum(left, 1e-300)), 0.0)
+    step = 4.0 * np.maximum(period, 1)
+    return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters["frequency"]
+
+
+def shares_at(
+    amplitudes: np.ndarray,
+    settings: dict,
+    *,
+    followed: int = FOLLOWED,
+    threads: int = 1,
+    progress: str | None = None,
+) -> pd.DataFrame:
+    """The table for some amplitudes (m/s²), ascending, shape (m,).
+
+    followed : initial conditions per attractor from which its mean velocity is computed
+    """
+    starts, parameters = settings["starts"], population(amplitudes, settings, IDENTICAL)
+    labels = label_starts(parameters, settings, starts=starts, threads=threads, progress=progress)
+    number = groups(labels, np.arange(len(parameters)) // starts)
+    _, first, count = np.unique(number, return_index=True, return_counts=True)
+    # The trajectories of each motion that have settled first are followed further.
+    most = np.where(labels.state[first] == "undecided", 0, followed)
+    order = np.lexsort((labels.cycles, number))
+    rank = np.arange(len(order)) - np.repeat(np.cumsum(count) - count, count)
+    chosen = order[rank < np.repeat(most, count)]
+    of_chosen = labels.select(chosen)
+    each, each_peaks, each_status = velocities(parameters[chosen], of_chosen, settings, threads=threads)
+    velocity, error, peaks = np.full(len(first), np.nan), np.full(len(first), np.nan), np.full((len(first), 2), np.nan)
+    status = np.where(most > 0, "ok", regimes.UNDECIDED).astype(object)
+    for row, own in enumerate(np.split(np.arange(len(chosen)), np.cumsum(np.minimum(count, most))[:-1])):
+        failed = each_status[own] != "ok"
+        if failed.any():
+            status[row] = each_status[own][failed][0]
+        elif len(own):
+            velocity[row], peaks[row] = each[own].mean(), each_peaks[own].max(axis=0)
+            error[row] = each[own].std(ddof=1) / math.sqrt(len(own)) if len(own) > 1 else np.nan
+    share = count / starts
+    acceleration = parameters["acceleration"][first]
+    normal_gravity = parameters["gravity"][first] * cos(parameters["inclination"][first])
+    harmonics = settings["model"].get("harmonics", ())
+    largest_fall = throw_number(1.0, angle=0.5 * math.pi, gravity=1.0, harmonics=harmonics)
+    table = pd.DataFrame(
+        {
+            "acceleration": acceleration,
+            "vertical": acceleration * sin(parameters["angle"][first]) / normal_gravity * largest_fall,
+            "state": labels.state[first],
+            "period": labels.period[first],
+            "longest_flight": labels.longest_flight[first],
+            "starts": count,
+            "share": share,
+            "stderr": np.sqrt(share * (1.0 - share) / starts),
+            "mean_velocity": velocity,
+            "velocity_stderr": error,
+            "impact_speed": peaks[:, 0],
+            "peak_force": peaks[:, 1],
+            "status": status,
+        }
+    )
+    order = {"by": ["acceleration", "mean_velocity", "starts"], "ascending": [True, False, False]}
+    table = table.sort_values(**order, ignore_index=True)
+    return table.assign(motion=table.groupby("acceleration").cumcount() + 1)
+
+
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
+    """The tables of shares and of regimes for the settings of the config."""
+    amplitudes = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
+    table = shares_at(amplitudes, settings, threads=threads, progress=progress)
+    while True:
+        summary = regimes.summarize_amplitudes(table)
+        places, regime = summary.acceleration.to_numpy(), summary.regime.to_numpy()
+        wide = (regime[1:] != regime[:-1]) & (np.diff(places) > settings["resolution"])
+        if not wide.any() or len(places) >= len(amplitudes) + MOST_ADDED:
+            return {"shares": table, "regimes": regimes.intervals_of(summary, table)}
+        between = 0.5 * (places[1:] + places[:-1])[wide]
+        label = progress and f"{progress}, amplitudes between: {len(between)}"
+        new = shares_at(between, settings, threads=threads, progress=label)
+        table = pd.concat([table, new]).sort_values(["acceleration", "motion"], ignore_index=True)

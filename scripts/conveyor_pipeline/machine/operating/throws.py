@@ -1,0 +1,51 @@
+"""The motions of several conveyors over the throw number, to compare them with the textbook theory.
+
+The conveyors come from the config and from the examples. Initial heights fill the same box in units of g cos α/ω²
+(initial velocities: g cos α/ω).
+"""
+
+import numpy as np
+import pandas as pd
+import yaml
+
+from conveyor import normal_gravity, throw_number, throw_velocity
+from conveyor_pipeline.machine.operating import shares
+from conveyor_pipeline.common import fields
+
+FOLLOWED = 4  # initial conditions per attractor from which its mean velocity is computed
+TABLES = {
+    "throws": (
+        fields.text("conveyor", "paper, or the name of the example"),
+        *shares.TABLES["shares"],
+        fields.number("textbook", "m/s", "velocity by the textbook theory; null beyond its range"),
+    )
+}
+
+
+def settings_of_conveyor(settings: dict, model: dict) -> dict:
+    """The settings of `shares` for a conveyor whose parameters differ from the config by `model`."""
+    base = settings["model"]
+    own = base | model
+    gravity = normal_gravity(own) / normal_gravity(base)
+    period = base["frequency"] / own["frequency"]
+    speed = gravity * period
+    box = {
+        "height": [speed * period * end for end in settings["height"]],
+        "vz0": [speed * end for end in settings["vz0"]],
+    }
+    return {**settings, **box, "model": own}
+
+
+def make(examples: list[str], settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
+    """The shares at each throw number, for the conveyors of the config and of the `examples` (YAML texts)."""
+    conveyors = {"paper": {}} | {one["prefix"]: one["model"] for one in map(yaml.safe_load, examples)}
+    throws = np.linspace(*(settings["throw_number"][key] for key in ("start", "stop", "num")))
+    tables = []
+    for name, model in conveyors.items():
+        own = settings_of_conveyor(settings, model)
+        amplitudes = throws / throw_number(1.0, **own["model"])
+        label = progress and f"{progress}: {name}"
+        table = shares.shares_at(amplitudes, own, followed=FOLLOWED, threads=threads, progress=label)
+        textbook = throw_velocity(table.acceleration, **own["model"])
+        tables.append(table.assign(conveyor=name, textbook=textbook))
+    return pd.concat(tables, ignore_index=True)

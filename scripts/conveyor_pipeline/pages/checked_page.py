@@ -1,0 +1,41 @@
+"""The page on checks of the numbers against theory and brute force."""
+
+import pandas as pd
+from scipy.stats import binomtest
+
+from conveyor_pipeline.study.accuracy.map_check import ACCEPTED, CLOSE, CYCLES, REPEATS, SIGNIFICANT, TOLERANCE
+from conveyor_pipeline.common.templates import render
+
+ROUNDING = 1e-13  # smaller differences are rounding errors
+CONFIDENCE = 0.95  # of the limit of the share of different labels
+
+
+def count_labels(points: pd.DataFrame) -> pd.DataFrame:
+    """For each map: points, those near a boundary, in chaos, with another label, and both."""
+    differs = points.label != points.state
+    counts = points.assign(
+        points=1, chaos=points.label == "chaos", different=differs, different_near=differs & points.near_boundary
+    ).groupby("map", sort=False)
+    return counts[["points", "near_boundary", "chaos", "different", "different_near"]].sum().reset_index()
+
+
+def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame) -> str:
+    """The page from its template, the table of quantities with a closed form, and the table of checked map points."""
+    different, points = int((map_check.label != map_check.state).sum()), len(map_check)
+    values = {
+        "theory": theory,
+        "rounding": ROUNDING,
+        "cycles": CYCLES,
+        "tolerance": TOLERANCE,
+        "close": CLOSE,
+        "repeats": REPEATS,
+        "significant": SIGNIFICANT,
+        "accepted": ACCEPTED,
+        "points": points,
+        "different": different,
+        "undecided": (map_check.state == "undecided").sum(),
+        "confidence": CONFIDENCE,
+        "largest_share": binomtest(different, points, alternative="less").proportion_ci(CONFIDENCE).high,
+        "maps": count_labels(map_check),
+    }
+    return render(template, values)

@@ -1,0 +1,41 @@
+"""Numbers of the caption of the figure fig22."""
+
+import math
+
+import pandas as pd
+
+from conveyor_pipeline.paper.claims.about_chaos import positive_onset, with_settled_motion
+from conveyor_pipeline.paper.caption_numbers.bifurcation import is_chaotic
+
+
+def describe_exceptions(table: pd.DataFrame) -> str:
+    """At how many amplitudes from the onset on the estimate is not positive, in words; empty for none."""
+    above = table[table.acceleration >= positive_onset(table)]
+    count = int((above["lambda"] <= 0.0).sum())
+    return f", with exceptions at {count} of {len(above)} amplitudes" if count else ""
+
+
+def numbers(
+    *, converged: pd.DataFrame, spectrum: pd.DataFrame, states: pd.DataFrame, euler: pd.DataFrame
+) -> dict[str, float]:
+    settled = with_settled_motion(converged, states)
+    positive = settled[settled["lambda"] > 0.0]
+    counts = {"positive": len(positive), "periodic": int((positive.period > 0).sum())}
+    up = spectrum[(spectrum.branch == "up")].sort_values("acceleration", kind="stable")
+    joined = pd.merge_asof(
+        converged.sort_values("acceleration", kind="stable"),
+        up[["acceleration", "lambda_1"]].assign(chaotic=is_chaotic(up)),
+        on="acceleration",
+        direction="nearest",
+    )
+    joined = joined[joined.chaotic]
+    return counts | {
+        "lowest_chaos": settled[settled.chaotic].acceleration.min(),
+        "euler_positive": positive_onset(euler),
+        "euler_exceptions": describe_exceptions(euler),
+        "converged_positive": positive_onset(converged),
+        "converged_exceptions": describe_exceptions(converged),
+        "time_shift": converged.attrs["epsilon"] / (2.0 * math.pi * converged.attrs["model"]["frequency"]),
+        "plateau": joined["lambda"].median(),
+        "truth": joined.lambda_1.median(),
+    }

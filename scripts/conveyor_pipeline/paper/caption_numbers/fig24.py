@@ -1,0 +1,7 @@
+"""Numbers of the caption of the figure fig24."""
+
+from conveyor_pipeline.paper.dimensions.portraits import LARGEST_ERROR
+
+
+def numbers() -> dict:
+    return {"largest_error": LARGEST_ERROR}

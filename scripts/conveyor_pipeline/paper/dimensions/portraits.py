@@ -1,0 +1,72 @@
+"""Fractal dimensions of the phase portraits ż_p over z_p, over the axes of an entry of the config."""
+
+import numpy as np
+
+from conveyor import (
+    Dimension,
+    box_dimension,
+    box_dimension_of_paper,
+    correlation_dimension,
+    for_each_chunk,
+    sample_runs,
+)
+from conveyor_pipeline.common import fields, grid
+
+TABLES = {
+    "dimensions": (
+        fields.number("dimension", "1", "dimension of the phase portrait ż_p over z_p (Eq. 25); null for no estimate"),
+        fields.number("error", "1", "half-width of its 95 % interval; null if the points resolve too few scales"),
+        fields.number("scale_low", "1", "smallest scale of the scaling region, in units of the portrait's extent"),
+        fields.number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),
+        fields.text("status", "ok, or why there is no dimension"),
+    ),
+}
+
+
+INTERVAL = 2.5e-4  # excitation cycles between samples of a run from its beginning: ten time steps of the paper's method
+# Excitation cycles between samples of a settled motion: the golden ratio spreads those of a periodic motion evenly.
+SETTLED_INTERVAL = 0.6180339887498949
+OCTAVES = 8  # the paper's box sizes: 1/2 to 1/256 of the extent; open: sizes at which the samples resolve a curve
+# Samples of a settled motion: enough to know the dimension of chaos to ± 0.1 by boxes; fewer for the correlation sum,
+# because the number of pairs grows with their square.
+SAMPLES = {"box": 300_000, "correlation": 20_000}
+THEILER = 20  # samples, which are twelve excitation cycles: pairs at most this far apart in time are left out
+LARGEST_ERROR = 0.1  # of a settled motion, half a 95 % interval; a less certain estimate is left out
+
+
+def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
+    """Consecutive points (z_p in m, ż_p in m/s) of one trajectory, shape (samples, 2)."""
+    frequency = parameters["frequency"]
+    if settings["estimator"] == "paper":
+        samples = round(settings["duration"] * frequency / INTERVAL) + 1
+        times = INTERVAL * np.arange(samples) / frequency
+    else:
+        samples = settings.get("samples", SAMPLES[settings["estimator"]])
+        times = settings["settling"] / frequency + SETTLED_INTERVAL * np.arange(samples) / frequency
+    options = {name: settings[name] for name in ("method", "tolerance", "step") if name in settings}
+    motion = sample_runs(parameters[None], times[None], columns=["z", "vz"], **options)
+    return np.stack([motion.z[0], motion.vz[0]], axis=1)
+
+
+def estimate(points: np.ndarray, settings: dict) -> Dimension:
+    """The dimension of a portrait by the estimator of the settings."""
+    if settings["estimator"] == "paper":
+        return box_dimension_of_paper(points, 0.5 ** np.arange(1, OCTAVES + 1))
+    return box_dimension(points) if settings["estimator"] == "box" else correlation_dimension(points, THEILER)
+
+
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
+    """The columns of a table of dimensions for the resolved `settings` of an entry of the config."""
+    axes, parameters = grid.product(settings["axes"], settings["model"])
+    results = np.empty((len(parameters), 4))
+
+    def work(begin, end):
+        for i in range(begin, end):
+            results[i] = estimate(portrait(parameters[i], settings), settings)[:4]
+
+    for_each_chunk(work, len(parameters), threads=threads, chunk=1, progress=progress)
+    value, error, *scales = results.T
+    wide = (error > LARGEST_ERROR) & (settings["estimator"] != "paper")
+    status = np.select([np.isnan(value), wide], ["too few scales", "interval too wide"], "ok")
+    columns = dict(zip(("scale_low", "scale_high"), scales, strict=True))
+    return axes | {"dimension": np.where(wide, np.nan, value), "error": error, **columns, "status": status}

@@ -1,0 +1,49 @@
+"""Fits of Eq. 13 to the critical initial heights, and the valley of nearly equal fits."""
+
+import numpy as np
+import pandas as pd
+
+from conveyor import Hyperbola, fit_hyperbola, fit_hyperbola_by_pymoo, hyperbola_profile, mean_squared_error
+from conveyor_pipeline.common import fields
+
+TABLES = {
+    "regressions": (
+        fields.text("fit", "pymoo, least_squares, paper (its A, B and C) or valley (the best A and C for a given B)"),
+        fields.number("A", "m²/s²", "parameter of Eq. 13"),
+        fields.number("B", "m/s²", "parameter of Eq. 13"),
+        fields.number("C", "m", "parameter of Eq. 13"),
+        fields.number("error", "m²", "mean squared error of Eq. 13"),
+        fields.count("evaluations", "number of computed errors of triples or values of B; 0 for the paper's triple"),
+    ),
+}
+
+SEED = 1  # of pymoo's evolution strategy
+EVALUATIONS = 5000  # at most; the search ends by itself after about 1000
+BELOW = 0.999  # largest pole of Eq. 13 in units of the lowest amplitude
+
+
+def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
+    """The columns of a table of regressions from a table of critical heights; no rows for too few amplitudes."""
+    low, high = settings.get("acceleration", (critical.acceleration.min(), critical.acceleration.max()))
+    data = critical[critical.is_critical & critical.acceleration.between(low, high)]
+    data = data.acceleration.to_numpy(), data.z0.to_numpy()
+    names = [column.name for column in TABLES["regressions"]]
+    if len(np.unique(data[0])) <= len(Hyperbola._fields):
+        return {name: [] for name in names}
+    bounds = {name: tuple(limits) for name, limits in settings["bounds"].items()}
+    valley = dict(settings["valley"])
+    if "acceleration" not in settings:
+        # For a conveyor without known amplitudes, the pole of Eq. 13 must stay below the data.
+        valley["start"] = -BELOW * data[0].min()
+        bounds["B"] = valley["start"], bounds["B"][1]
+    valley = np.linspace(valley["start"], valley["stop"], int(valley["num"]))
+    pymoo = fit_hyperbola_by_pymoo(*data, bounds, SEED, EVALUATIONS)
+    least_squares = fit_hyperbola(*data, bounds["B"])
+    valley, errors = hyperbola_profile(*data, valley)
+    rows = [("pymoo", *pymoo.parameters, pymoo.error, pymoo.evaluations)]
+    rows.append(("least_squares", *least_squares.parameters, least_squares.error, least_squares.evaluations))
+    if "paper" in settings:
+        paper = Hyperbola(**settings["paper"])
+        rows.append(("paper", *paper, mean_squared_error(*data, paper), 0))
+    rows += [("valley", *triple, error, 1) for triple, error in zip(valley, errors, strict=True)]
+    return pd.DataFrame(rows, columns=names).to_dict("list")

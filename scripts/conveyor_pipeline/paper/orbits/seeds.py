@@ -1,0 +1,67 @@
+"""Stable orbits as seeds of branches: from initial conditions of the config, or from a search over all amplitudes."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from conveyor import (
+    ORBIT_TOLERANCE,
+    Orbit,
+    initial_states,
+    replace_parameters,
+    sampled_initial_conditions,
+    settled_orbit,
+)
+from conveyor_pipeline.common import grid
+from conveyor_pipeline.common.rule_log import JobError
+
+# Size of the search: amplitudes between the limits, and initial conditions at each.
+AMPLITUDES, INITIAL_CONDITIONS = 15, 8
+CYCLES = 800  # excitation cycles, after which a trajectory is close to its orbit
+DIGITS = 4  # of the longest flight, by which orbits with the same period and amplitude are distinguished
+
+
+def follow_seeds(settings: dict) -> list[Orbit]:
+    """The stable orbits that the seeds of the config lead to.
+
+    Raises
+    ------
+    JobError
+        names the seed that does not lead to a stable orbit
+    """
+    orbits = []
+    for seed in settings["seeds"]:
+        row = grid.product({name: [value] for name, value in seed.items()}, settings["model"])[1]
+        state = initial_states(row, ORBIT_TOLERANCE)[0]
+        orbit = settled_orbit(row[0], seed["acceleration"], state, range(1, settings["max_period"] + 1), CYCLES)
+        if orbit is None:
+            raise JobError(
+                f"orbits.seeds: {seed} leads to no stable orbit of up to {settings['max_period']} cycles; "
+                "choose another amplitude or more cycles"
+            )
+        orbits.append(orbit)
+    return orbits
+
+
+def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
+    """The different stable orbits that some initial conditions lead to, at amplitudes between the limits."""
+    for acceleration in np.linspace(*settings["limits"], AMPLITUDES + 2)[1:-1]:
+        row = replace_parameters(parameters, acceleration=acceleration)
+        at_rest = initial_states(row[None], ORBIT_TOLERANCE)
+        seen = set()
+        for state in np.vstack([at_rest, sampled_initial_conditions(row)[:INITIAL_CONDITIONS]]):
+            orbit = settled_orbit(parameters, acceleration, state, range(1, settings["max_period"] + 1), CYCLES)
+            if orbit is not None and (key := (orbit.period, round(orbit.longest_flight, DIGITS))) not in seen:
+                seen.add(key)
+                yield orbit
+
+
+def seeds(parameters: np.ndarray, settings: dict) -> list[Orbit]:
+    """The stable orbits from which branches are continued; the search may find none.
+
+    Raises
+    ------
+    JobError
+        if a seed of the config does not lead to one
+    """
+    return follow_seeds(settings) if "seeds" in settings else list(search_seeds(parameters, settings))

@@ -1,0 +1,171 @@
+"""Curves of folds, period doublings and the lift-off of a riding part over the amplitude and a second parameter."""
+
+import numpy as np
+import pandas as pd
+
+from conveyor import (
+    GRAZING,
+    UNITS,
+    BifurcationCurve,
+    BifurcationPoint,
+    CurveEnd,
+    ParameterPath,
+    amplitude_of,
+    follow_bifurcation_curve,
+    follow_grazing_curve,
+    for_each_chunk,
+)
+from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.paper.sensitivity.selection import COLUMNS, Selected, select_bifurcations
+
+CURVE = (
+    fields.text("kind", "fold, period_doubling or grazing (at which a riding part begins to leave the plate)"),
+    fields.count("period", "excitation cycles"),
+    *COLUMNS,
+    fields.number("begin", "m/s²", "amplitude of the bifurcation for the conveyor of the config"),
+    fields.text("parameter", "varied parameter besides the amplitude"),
+    fields.text("parameter_unit", "unit of the varied parameter"),
+)
+PLACE = (
+    fields.number("value", "see parameter_unit", "value of the varied parameter"),
+    fields.number("acceleration", "m/s²", "amplitude of the excitation"),
+    fields.number("amplitude_group", "1", "Γ = a_z/g"),
+    fields.number("damping_group", "1", "D = d_c/(m ω)"),
+    fields.number("stiffness_group", "1", "K = (k_c/m) g^(p-1)/ω^(2p)"),
+)
+TABLES = {
+    "continued": (
+        *CURVE,
+        fields.count("point", "number of the point along its curve"),
+        *PLACE,
+        fields.count("impacts", "impacts of the orbit in a period"),
+        fields.number("normal_form", "1", "zero at a cusp or a generalised doubling; null for a grazing"),
+        fields.text("status", "ok, or at the ends of a curve the reason why it ends"),
+    ),
+    "meetings": (
+        *CURVE,
+        fields.text("meeting", "kind of the codimension-two point: cusp, generalised doubling, or grazing"),
+        *PLACE,
+        fields.text("status", "ok, or the reason why the point is only near the meeting"),
+    ),
+}
+# Exponents of a parameter in the groups D and K; the angle is in neither.
+POWERS = {
+    "damping": lambda p: ParameterPath(1.0, 0.0),
+    "stiffness": lambda p: ParameterPath(0.0, 1.0),
+    "frequency": lambda p: ParameterPath(-1.0, -2.0 * p),
+}
+DOUBLINGS = 3  # of the cascade, by an effort of 1
+POINTS = 250  # on each side of a curve, after which it ends
+ENDS = {
+    CurveEnd.LIMIT: "limit of the config",
+    CurveEnd.STEP: "no smooth curve beyond",
+    CurveEnd.LENGTH: f"after {POINTS} points",
+    CurveEnd.CLOSED: "closed",
+    CurveEnd.LOST: "no orbit beyond",
+    CurveEnd.HALVED: "the orbit has half the period here",
+}
+LIMITS = (0.1, 5.0)  # a_z/g, within which curves are followed
+STEP = 0.1  # longest step in x, y, log of a_z/g and log of the parameter
+STEEPEST = 0.49 * np.pi  # rad, largest angle of throw of a curve
+
+
+def place_columns(parameters: np.ndarray, point: BifurcationPoint, parameter: str, part: float) -> dict:
+    """The columns with the parameters and groups of a point; `part` is the logarithm of the factor on `parameter`."""
+    here = parameters.copy()
+    here[parameter] *= np.exp(part)
+    groups = point.groups
+    return {
+        "value": float(here[parameter]),
+        "acceleration": amplitude_of(here, groups.amplitude),
+        "amplitude_group": groups.amplitude,
+        "damping_group": groups.damping,
+        "stiffness_group": groups.stiffness,
+    }
+
+
+def angle_curve(point: BifurcationPoint, angle: float, reach: float) -> BifurcationCurve:
+    """The curve over the angle of throw (rad), on which Γ is constant, so that â is proportional to 1/sin φ.
+
+    reach : largest logarithm of the factor on the angle
+    """
+    highest = min(reach, np.log(STEEPEST / angle))
+    parts = np.linspace(-reach, highest, 2 * int(np.ceil(reach / STEP)) + 1)
+    count = len(parts)
+    ends = CurveEnd.LIMIT, CurveEnd.LIMIT
+    return BifurcationCurve([point] * count, parts, np.full(count, np.nan), np.zeros(count, np.int64), [], ends)
+
+
+def follow_curve(parameters: np.ndarray, point: BifurcationPoint, parameter: str, factor: float) -> BifurcationCurve:
+    """The curve of a bifurcation over a parameter, to a largest `factor` by which it decreases and increases."""
+    reach = np.log(factor)
+    if parameter == "angle":
+        return angle_curve(point, parameters["angle"], reach)
+    path = POWERS[parameter](point.groups.exponent)
+    limits = LIMITS, (-reach, reach)
+    if point.kind == GRAZING:
+        return follow_grazing_curve(point, path, *limits, step=0.5 * STEP)
+    return follow_bifurcation_curve(point, path, *limits, longest_step=STEP, most=POINTS)
+
+
+def curve_rows(
+    parameters: np.ndarray, bifurcation: Selected, parameter: str, curve: BifurcationCurve
+) -> tuple[list[dict], list[dict]]:
+    """The rows of the points and of the meetings of a curve."""
+    name = {
+        "kind": bifurcation.kind,
+        "period": bifurcation.period,
+        "doubling": bifurcation.doubling,
+        "rides": bifurcation.rides,
+        "begin": bifurcation.acceleration,
+        "parameter": parameter,
+        "parameter_unit": UNITS[parameter],
+    }
+    last = len(curve.points) - 1
+    points = []
+    for n, (point, part, form, impacts) in enumerate(
+        zip(curve.points, curve.log_ratios, curve.normal_forms, curve.impacts, strict=True)
+    ):
+        end = curve.ends[0] if n == 0 else curve.ends[1] if n == last else None
+        columns = {"point": n, "impacts": impacts, "normal_form": form, "status": ENDS.get(end, "ok")}
+        points.append({**name, **place_columns(parameters, point, parameter, part), **columns})
+    meetings = [
+        {
+            **name,
+            **place_columns(parameters, meeting.point, parameter, meeting.log_ratio),
+            "meeting": meeting.kind,
+            "status": meeting.status,
+        }
+        for meeting in curve.meetings
+    ]
+    return points, meetings
+
+
+def make(
+    folds_and_doublings: pd.DataFrame,
+    cascade: pd.DataFrame,
+    settings: dict,
+    *,
+    threads: int = 1,
+    progress: str | None = None,
+) -> dict[str, dict[str, np.ndarray]]:
+    """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
+    parameters = grid.row_of(settings["model"])
+    doublings = max(1, round(settings["effort"] * DOUBLINGS))
+    chosen = select_bifurcations(parameters, folds_and_doublings, cascade, doublings)
+    chosen = [one for one in chosen if one.point is not None and (one.kind != GRAZING or one.rides)]
+    tasks = [(bifurcation, parameter) for bifurcation in chosen for parameter in POWERS]
+    tasks += [(bifurcation, "angle") for bifurcation in chosen]
+    rows_of_curves = [None] * len(tasks)
+
+    def work(begin, end):
+        for n in range(begin, end):
+            bifurcation, parameter = tasks[n]
+            curve = follow_curve(parameters, bifurcation.point, parameter, settings["factors"][parameter])
+            rows_of_curves[n] = curve_rows(parameters, bifurcation, parameter, curve)
+
+    for_each_chunk(work, len(tasks), threads=threads, chunk=1, progress=progress)
+    return {
+        "continued": fields.columns([row for rows, _ in rows_of_curves for row in rows], TABLES["continued"]),
+        "meetings": fields.columns([row for _, rows in rows_of_curves for row in rows], TABLES["meetings"]),
+    }

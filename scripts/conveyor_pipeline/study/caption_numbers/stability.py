@@ -1,0 +1,10 @@
+"""Numbers of the caption of the figure stability."""
+
+import pandas as pd
+
+from conveyor_pipeline.study.accuracy.stability import HEIGHT, PANELS, VELOCITY
+
+
+def numbers(*, stability: pd.DataFrame) -> dict:
+    own = stability[(stability.method == "event") & stability.panel.isin(PANELS)]
+    return {"height": HEIGHT, "accuracy": VELOCITY, "own_right": own.outcome == "right"}

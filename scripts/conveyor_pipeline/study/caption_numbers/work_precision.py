@@ -1,0 +1,28 @@
+"""Numbers of the caption of the figure work_precision."""
+
+import pandas as pd
+
+from conveyor_pipeline.study.accuracy import speed
+from conveyor_pipeline.study.figures.work_precision import NAMES, method_name
+
+
+def numbers(
+    *,
+    jumping: pd.DataFrame,
+    riding: pd.DataFrame,
+    bouncing: pd.DataFrame,
+    jumping_times: pd.DataFrame,
+    riding_times: pd.DataFrame,
+    bouncing_times: pd.DataFrame,
+) -> dict:
+    works, times = (jumping, riding, bouncing), (jumping_times, riding_times, bouncing_times)
+    comparisons = []
+    for scene, work, seconds in zip(NAMES.values(), works, times, strict=True):
+        paper, *others = speed.factors(speed.successful_runs(work, seconds))
+        rival = others[0] if others else None
+        comparisons.append((scene, paper, rival, rival and method_name(rival.method)))
+    return {
+        "comparisons": comparisons,
+        "equal_error": speed.EQUAL_ERROR,
+        "difference": max(speed.independent_run(work).state_error for work in works),
+    }

@@ -1,0 +1,67 @@
+"""Motions of initial conditions on several conveyors, in batches and in any order."""
+
+import numpy as np
+import pytest
+
+from conveyor_pipeline.common import grid, labelling
+
+SETTINGS = {
+    "axes": {"acceleration": [40.0, 53.0, 80.0], "z0": {"start": 0.0, "stop": 4e-4, "num": 9}},
+    "settling": 4000,
+    "tolerance": 1e-8,
+}
+
+
+@pytest.fixture(scope="module")
+def starts():
+    return grid.product(SETTINGS["axes"], {})[1]
+
+
+@pytest.fixture(scope="module")
+def labels(starts):
+    return labelling.label_entry(starts, SETTINGS)
+
+
+def equal(found, other) -> bool:
+    return all(np.array_equal(found[name], other[name], equal_nan=found[name].dtype.kind == "f") for name in found)
+
+
+def test_all_states_are_there(labels):
+    assert {"first", "second", "chaos"} <= set(labels.state)
+
+
+@pytest.mark.parametrize("conveyors", [1, 2])
+def test_labels_do_not_depend_on_batches(monkeypatch, starts, labels, conveyors):
+    monkeypatch.setattr(labelling, "CONVEYORS", conveyors)
+    assert len(labelling.batches_by_conveyor(starts)) == -(-3 // conveyors)
+    assert equal(labelling.label_entry(starts, SETTINGS, threads=2), labels)
+
+
+def test_labels_do_not_depend_on_the_order_of_initial_conditions(monkeypatch, starts, labels):
+    monkeypatch.setattr(labelling, "CONVEYORS", 1)
+    order = np.random.default_rng(1).permutation(len(starts))
+    found = labelling.label_entry(starts[order], SETTINGS)
+    assert equal(found, labels.select(order))
+
+
+@pytest.mark.parametrize(("count", "settling", "sets"), [(9, 4000, 1), (9, 3000, 0), (7, 20_000, 0)])
+def test_attractors_are_searched_if_that_saves_time(count, settling, sets):
+    """One conveyor in chaos: a few initial conditions, or short runs, are followed one by one."""
+    row = grid.product({"acceleration": [80.0]}, {})[1]
+    found = labelling.shared_attractors(row, count, SETTINGS | {"settling": settling})
+    assert (len(found.chaotic.low), len(found.orbits.periods)) == (sets, 0)
+
+
+@pytest.mark.parametrize("settling", [500, 1000])
+def test_a_search_ends_at_the_limit_and_says_so(settling):
+    """At 73 m/s², chaos is a transient of thousands of cycles."""
+    axes = {"psi0": {"start": 0.0, "stop": 6.0, "num": 20}, "z0": {"start": 0.0, "stop": 5e-4, "num": 20}}
+    settings = {"axes": axes, "settling": settling, "tolerance": 1e-6}
+    starts = grid.product(axes, {"acceleration": 73.0})[1]
+    found = labelling.label_entry(starts, settings)
+    assert 0.5 < (found.period == 0).mean() < 1.0
+    assert "undecided" in found.state
+    assert (found.cycles[found.state == "undecided"] >= settling).all()
+    # A part of the table, as a shard has it, and other threads.
+    part = labelling.label_entry(starts[150:250], settings, threads=2)
+    assert equal(part, found.select(slice(150, 250)))

@@ -1,0 +1,319 @@
+"""Recordings as loggers write them: right within their intervals, or refused with the cause and the value that fits."""
+
+import gzip
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import yaml
+
+from accelerometer import Drive, check, table_of
+from conveyor_pipeline.machine.excitation import measure
+from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY
+from conveyor_pipeline.machine.excitation.sampling import EVEN, ROUNDED, STAMPED, resolve
+from conveyor_pipeline.common.csv_table import TableError, read_text
+from conveyor_pipeline.config import ConfigError, load_config
+from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
+
+PURE = Drive(cycles=100.0, rate=1600.0, noise=0.1, bias=(0.0, 0.0), mount=0.2)
+TIMES, READINGS = PURE.record()
+TIMES = TIMES - TIMES[0]
+
+
+def text_of(time, readings, header="time,x,z", digits=7, separator=","):
+    """The file of a logger."""
+    lines = (
+        separator.join([f"{t:.{digits}f}", f"{x:.4f}", f"{z:.4f}"]) for t, (x, z) in zip(time, readings.T, strict=True)
+    )
+    return "\n".join([header, *lines, ""])
+
+
+def sampled(rate, count=3200, **changes):
+    """Times and readings of a drive that is sampled evenly."""
+    drive = replace(PURE, rate=rate, cycles=count * PURE.frequency / rate, **changes)
+    time, readings = drive.record()
+    return time - time[0], readings
+
+
+def estimates(text, **settings):
+    """Values and standard errors of the parameters, the orders above the noise, and the quality."""
+    settings = {**PURE.settings, "measured": "mine.csv", **settings}
+    check(text, settings)
+    made = measure.make(text, settings)
+    values = dict(zip(made["parameters"]["parameter"], made["parameters"]["value"], strict=True))
+    errors = dict(zip(made["parameters"]["parameter"], made["parameters"]["stderr"], strict=True))
+    harmonics = made["harmonics"]
+    orders = [order for order, above in zip(harmonics["order"], harmonics["above_noise"], strict=True) if above]
+    return values, errors, orders, {name: column[0] for name, column in made["quality"].items()}
+
+
+def fault_of(text, **settings):
+    """What the check says about a file."""
+    with pytest.raises(TableError) as error:
+        check(text, {**PURE.settings, **settings})
+    return str(error.value)
+
+
+def assert_right(found):
+    values, errors, orders, _ = found
+    for name in values:
+        # Three of four parameters would be within 1.96 standard errors; a fault of the times makes tens of them.
+        assert abs(values[name] - getattr(PURE, name)) < 3.5 * errors[name], name
+    assert orders == []
+
+
+def buffered(time, length, bus):
+    """Times of a host that reads buffers of a sensor."""
+    first = np.repeat(time[::length], length)[: len(time)]
+    return first + (np.arange(len(time)) % length) / bus
+
+
+@pytest.mark.parametrize("rate", [400.0, 640.0, 800.0, 1344.0])
+@pytest.mark.parametrize("cut", [np.round, np.floor])
+def test_times_in_milliseconds_count_as_evenly_spaced(rate, cut):
+    time, readings = sampled(rate)
+    found = estimates(text_of(cut(1000.0 * time) / 1000.0, readings, digits=3))
+    assert_right(found)
+    assert found[3]["sampling"] == ROUNDED
+
+
+@pytest.mark.parametrize(("length", "bus"), [(8, 3200.0), (16, 1700.0), (32, 1e4), (16, np.inf)])
+def test_buffers_with_the_time_of_the_host_count_as_evenly_spaced(length, bus):
+    found = estimates(text_of(buffered(TIMES, length, bus), READINGS))
+    assert_right(found)
+    assert found[3]["sampling"] in (ROUNDED, EVEN)
+    assert found[3]["rate_error"] < 1e-3
+
+
+def test_random_delays_of_the_host_count_as_evenly_spaced():
+    delays = np.random.default_rng(3).uniform(0.0, 0.9, len(TIMES)) / PURE.rate
+    found = estimates(text_of(TIMES + delays, READINGS))
+    assert_right(found)
+    assert found[3]["sampling"] == EVEN
+
+
+@pytest.mark.parametrize("times", [2, 4, 2.5])
+def test_lines_of_a_sensor_that_is_read_too_often_are_left_out(times):
+    time, readings = sampled(500.0, 1000)
+    polled = np.arange(int(times * len(time))) / (times * 500.0)
+    row = np.floor(polled * 500.0 + 1e-9).astype(int)
+    found = estimates(text_of(polled, readings[:, row]))
+    assert_right(found)
+    assert found[3]["repeated"] == len(polled) - len(time)
+
+
+def test_steps_of_a_converter_are_no_repeated_readings():
+    time, readings = sampled(8000.0, 3200)
+    text = text_of(time, 2.0 * np.round(readings / 2.0))
+    assert check(text, PURE.settings).repeated == 0
+
+
+@pytest.mark.parametrize(
+    "changes", [{"jitter": 0.3}, {"random": True}, {"gap": (0.3, 0.5)}, {"harmonics": ((2, 0.05, 0.3, 0.08, 2.0),)}]
+)
+def test_right_times_stay_as_they_are(changes):
+    drive = replace(PURE, **changes)
+    recording = check(drive.text(), drive.settings)
+    assert recording.sampling == STAMPED and recording.repeated == 0
+    np.testing.assert_allclose(recording.time, drive.record()[0] - drive.record()[0][0], atol=1e-8)
+
+
+@pytest.mark.parametrize("every", [3, 4, 8, 10, 25, 100])
+def test_lost_samples_are_refused_also_where_they_look_like_harmonics(every):
+    kept = np.arange(len(TIMES)) % every != every - 1
+    text = text_of(TIMES[: kept.sum()], READINGS[:, kept])
+    assert f"If every {every}th sample is lost, the drive vibrates at 50" in fault_of(text)
+
+
+def test_lost_samples_with_the_times_of_the_others_are_right():
+    kept = np.arange(len(TIMES)) % 8 != 7
+    assert_right(estimates(text_of(TIMES[kept], READINGS[:, kept])))
+
+
+@pytest.mark.parametrize("ratio", [0.7, 0.9])
+@pytest.mark.parametrize("rate", [400.0, 1600.0, 1730.0])
+def test_two_sensors_in_one_file_are_refused(ratio, rate):
+    time, readings = sampled(rate)
+    mean = readings.mean(axis=1, keepdims=True)
+    mixed = np.where(np.arange(len(time)) % 2 == 0, readings, ratio * (readings - mean) + mean)
+    assert "as two sensors in one file do" in fault_of(text_of(time, mixed))
+
+
+def test_times_too_coarse_for_the_rate_are_refused_and_a_rate_replaces_them():
+    text = text_of(np.floor(TIMES), READINGS, digits=0)
+    assert "state excitation.rate (Hz)" in fault_of(text)
+    assert_right(estimates(text, rate=PURE.rate))
+
+
+# Factors of x and z, settings, and what the message must say.
+DIRECTIONS = {
+    "all negated": (-1, -1, {}, 'excitation.columns: {time: time, x: "-x", z: "-z"}'),
+    "underside": (1, -1, {}, 'excitation.columns: {time: time, x: x, z: "-z"}'),
+    "x negated": (-1, 1, {}, 'excitation.columns: {time: time, x: "-x", z: z}'),
+    "no mount": (1, 1, {"mount": 0.0}, "set excitation.mount: 0.2"),
+    "mount in degrees": (1, 1, {"mount": float(np.degrees(0.2) / 4.0)}, "excitation.mount: 0.2"),
+    "wrong inclination": (1, 1, {"inclination": 0.1}, "model.inclination: 0"),
+}
+
+
+@pytest.mark.parametrize("name", DIRECTIONS)
+def test_axes_that_contradict_gravity_are_refused_with_what_fits(name):
+    x, z, settings, message = DIRECTIONS[name]
+    assert message in fault_of(text_of(TIMES, READINGS * [[x], [z]]), **settings)
+
+
+def test_a_mount_in_degrees_is_called_so():
+    time, readings = sampled(1600.0, mount=np.radians(3.0))
+    fault = fault_of(text_of(time, readings), mount=3.0)
+    assert "the mount looks like degrees: set excitation.mount: 0.05236" in fault
+
+
+def test_exchanged_axes_are_refused_with_their_names():
+    time, readings = sampled(1600.0, mount=0.0)
+    assert "excitation.columns: {time: time, x: z, z: x}" in fault_of(text_of(time, readings[::-1]), mount=0.0)
+
+
+def test_columns_with_a_minus_are_right():
+    found = estimates(text_of(TIMES, -READINGS), columns={"time": "time", "x": "-x", "z": "-z"})
+    assert_right(found)
+
+
+@pytest.mark.parametrize(
+    ("factor", "settings", "message"),
+    [
+        (256.0 / STANDARD_GRAVITY, {}, "counts, 256 for each g"),
+        (420.0 / STANDARD_GRAVITY, {}, "one g is 420"),
+        (100.0, {}, "cm/s²"),
+        (1.0 / STANDARD_GRAVITY, {}, "set excitation.unit: g"),
+        (1000.0, {}, "set excitation.unit: mm/s²"),
+        (1000.0 / STANDARD_GRAVITY, {"unit": "g"}, "set excitation.unit: mg"),
+        (1.0, {"unit": "g"}, "set excitation.unit: m/s²"),
+    ],
+)
+def test_means_that_are_not_gravity_are_refused_with_the_unit_or_factor(factor, settings, message):
+    settings = {"unit": "m/s²", **settings}
+    assert message in fault_of(text_of(TIMES, factor * READINGS), **settings)
+
+
+@pytest.mark.parametrize(
+    ("factor", "unit"), [(1000.0, "mm/s²"), (1000.0 / STANDARD_GRAVITY, "mg"), (1.0 / STANDARD_GRAVITY, "g")]
+)
+def test_units_are_converted(factor, unit):
+    assert_right(estimates(text_of(TIMES, factor * READINGS), unit=unit))
+
+
+def test_a_small_error_of_the_mount_is_part_of_the_standard_errors():
+    time, readings = sampled(1600.0, mount=0.23)
+    values, errors, _, quality = estimates(text_of(time, readings))
+    assert quality["lean"] == pytest.approx(0.03, abs=1e-3)
+    assert abs(values["angle"] - PURE.angle) < 1.96 * errors["angle"] < 0.07
+
+
+def test_a_sensor_that_removes_gravity_is_accepted_and_the_table_says_so():
+    _, _, _, quality = estimates(text_of(TIMES, READINGS - READINGS.mean(axis=1, keepdims=True)))
+    assert not quality["gravity_found"]
+
+
+SPELLINGS = {
+    "lines before": lambda lines: ["Logger v2", "Sample rate,1600", "", *lines],
+    "units below": lambda lines: [lines[0], "(s),(m/s^2),(m/s^2)", *lines[1:]],
+    "units above": lambda lines: ["Time (s),x [m/s²],z [m/s²]", *lines[1:]],
+    "phyphox": lambda lines: ['"Time (s)","Acceleration x (m/s^2)","Acceleration z (m/s^2)"', *lines[1:]],
+    "comment sign": lambda lines: ["#" + lines[0], *lines[1:]],
+    "spaces": lambda lines: [line.replace(",", "  ") for line in lines],
+    "trailing comma": lambda lines: [line + "," for line in lines],
+    "semicolons": lambda lines: [line.replace(",", ";").replace(".", ",") for line in lines],
+    "milliseconds": lambda lines: [
+        "Time (ms),x,z",
+        *(f"{1000.0 * float(line.split(',')[0]):.4f},{line.split(',', 1)[1]}" for line in lines[1:]),
+    ],
+    "clock": lambda lines: [lines[0], *(clock(line, "23:59:{:09.6f}", "00:00:{:09.6f}") for line in lines[1:])],
+    "dates": lambda lines: [
+        lines[0],
+        *(clock(line, "2026-02-28T23:59:{:09.6f}Z", "2026-03-01T00:00:{:09.6f}Z") for line in lines[1:]),
+    ],
+    "nanoseconds": lambda lines: [
+        "timestamp (ns),x,z",
+        *(
+            f"{1714567890123456789 + round(1e9 * float(line.split(',')[0]))},{line.split(',', 1)[1]}"
+            for line in lines[1:]
+        ),
+    ],
+}
+
+
+def clock(line, before, after):
+    """A line with a clock time that passes midnight after a second."""
+    time, rest = line.split(",", 1)
+    second = 59.0 + float(time)
+    return f"{before.format(second) if second < 60.0 else after.format(second - 60.0)},{rest}"
+
+
+@pytest.mark.parametrize("name", SPELLINGS)
+def test_files_are_read_as_loggers_write_them(name):
+    settings = {"mount": PURE.mount}
+    lines = text_of(TIMES, READINGS).splitlines()
+    expected = check("\n".join(lines), settings)
+    found = check("\n".join([*SPELLINGS[name](lines), ""]), settings)
+    np.testing.assert_allclose(found.acceleration, expected.acceleration, atol=1e-9)
+    np.testing.assert_allclose(found.time, expected.time, atol=2e-6)
+
+
+def test_thousands_have_separators():
+    rows = [f"{t:.6f};{1000.0 * x:,.1f};{1000.0 * z:,.1f}" for t, (x, z) in zip(TIMES, READINGS.T, strict=True)]
+    english = "\n".join(["time;x;z", *rows, ""])
+    for text in (english, english.translate(str.maketrans(",.", ".,"))):
+        found = check(text, {"mount": PURE.mount, "unit": "mm/s²"})
+        np.testing.assert_allclose(found.readings, READINGS, atol=6e-5)
+
+
+def test_compressed_files_and_other_encodings_are_read(tmp_path):
+    text = text_of(TIMES, READINGS, header="time (s),x (m/s²),z (m/s²)")
+    for name, content in {
+        "mine.csv.gz": gzip.compress(text.encode()),
+        "latin.csv": text.encode("latin-1"),
+        "wide.csv": text.encode("utf-16"),
+    }.items():
+        (tmp_path / name).write_bytes(content)
+        assert read_text(tmp_path / name, "excitation.measured", MOST_BYTES) == text
+
+
+def test_missing_columns_are_named_once_with_the_key():
+    text = text_of(TIMES, READINGS, header="Stamp,ch 1,ch 2")
+    with pytest.raises(TableError) as error:
+        check(text, PURE.settings)
+    assert len(error.value.faults) == 1
+    assert 'there are Stamp, "ch 1", "ch 2". Say which is which by excitation.columns' in str(error.value)
+    columns = {"time": "Stamp", "x": "ch 1", "z": "ch 2"}
+    assert check(text, {**PURE.settings, "columns": columns}).names == columns
+
+
+def test_names_decide_what_a_column_is_and_its_unit():
+    text = text_of(1e6 * TIMES, READINGS, header="clk,a1,a2", digits=1)
+    settings = {**PURE.settings, "columns": {"time": "clk", "x": "a1", "z": "a2"}, "time_unit": "µs"}
+    np.testing.assert_allclose(resolve(check(text, settings)).time, TIMES, atol=1e-7)
+
+
+def load(tmp_path, text, **overlay):
+    (tmp_path / "mine.csv").write_text(text)
+    overlay = {"prefix": "mine", **overlay, "excitation": {"measured": "mine.csv", **overlay.get("excitation", {})}}
+    file = tmp_path / "mine.yaml"
+    file.write_text(yaml.safe_dump(overlay, allow_unicode=True))
+    return load_config(DEFAULT_FILES, [file], merge(*read_all([file]))).config
+
+
+def test_a_frequency_that_contradicts_the_overlay_is_refused(tmp_path):
+    time, readings = sampled(1600.0, frequency=55.0)
+    text, excitation = text_of(time, readings), {"mount": PURE.mount}
+    with pytest.raises(ConfigError, match=r"vibrates at 55 Hz, but model.frequency is 50"):
+        load(tmp_path, text, excitation=excitation, model={"frequency": 50.0})
+    with pytest.raises(ConfigError, match=r"vibrates at 55 Hz, but model.frequency is 60"):
+        load(tmp_path, text, excitation=excitation, model={"frequency": 60.0})
+    load(tmp_path, text, excitation=excitation, model={"frequency": 54.8})
+    # Nobody has stated the default.
+    load(tmp_path, text, excitation=excitation)
+
+
+def test_a_table_knows_its_lines():
+    text = "\n# note\n" + text_of(TIMES, READINGS)
+    assert table_of(text, PURE.settings).lines[:2].tolist() == [4, 5]

@@ -1,0 +1,741 @@
+"""Shares of initial conditions: the box, its motions and their velocities, and the chart in words."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+from project import ROOT, si_config
+
+from conveyor import Columns, Conveyor, Start, classify, conveyor_motion, ensemble, parameter_table, simulate
+from conveyor_pipeline.machine.operating import advice, chart, parts, regimes, shares, throws, transit
+from conveyor_pipeline.common.labelling import label_entry
+from conveyor_pipeline.common.templates import format_range
+from conveyor_pipeline.config.tables import TABLES
+
+TEMPLATE = (ROOT / "workflow/templates/operating_chart.md").read_text()
+BOX = {
+    **si_config()["operating"],
+    "starts": 64,
+    "settling": 2000,
+    "model": {},
+}
+
+
+def test_heights_are_above_the_plate_at_the_initial_phase():
+    box = {**BOX, "starts": 3, "model": {"angle": 0.3}}
+    rows, starts = parts.population(np.array([30.0, 50.0]), box, parts.IDENTICAL), parts.starts_of_box(box)
+    assert rows.shape == (6,)
+    for row, acceleration, (height, velocity, phase) in zip(
+        rows, np.repeat([30.0, 50.0], 3), np.tile(starts, (2, 1)), strict=True
+    ):
+        plate = conveyor_motion(Conveyor(acceleration=acceleration, angle=0.3, psi0=phase), np.zeros(1))["z"][0]
+        assert row["z0"] - plate == pytest.approx(height, abs=1e-15)
+        assert (row["vz0"], row["psi0"]) == (velocity, phase)
+
+
+def test_initial_conditions_fill_the_box_and_depend_on_the_seed():
+    starts = parts.starts_of_box({**BOX, "starts": 1000})
+    for column, name in zip(starts.T, ("height", "vz0", "psi0"), strict=True):
+        low, high = BOX[name]
+        assert low <= column.min() < low + 0.02 * (high - low)
+        assert high - 0.02 * (high - low) < column.max() <= high
+    assert (starts == parts.starts_of_box({**BOX, "starts": 1000})).all()
+    assert (starts != parts.starts_of_box({**BOX, "starts": 1000, "seed": 2})).all()
+
+
+def test_motions_differ_by_conveyor_state_period_and_flight():
+    found = Columns(
+        {
+            "state": np.array(["second", "first", "second", "chaos", "second", "second", "chaos"]),
+            "period": np.array([1, 1, 2, 0, 1, 1, 0]),
+            "longest_flight": np.array([0.92, 0.0, 0.92, np.nan, 1.9, 0.9201, np.nan]),
+        }
+    )
+    number = shares.groups(found, np.zeros(7, dtype=np.int64))
+    assert number[0] == number[5]
+    assert number[3] == number[6]
+    assert len(set(number)) == 5
+    number = shares.groups(found, np.arange(7) // 4)
+    assert len(set(number)) == 7
+    assert number[:4].max() < number[4:].min()
+
+
+@pytest.fixture(scope="module")
+def table():
+    """Shares at two amplitudes with one and with two motions."""
+    return shares.shares_at(np.array([22.0, 40.0]), BOX, followed=2)
+
+
+def test_labels_agree_with_sweeps(table):
+    """The same initial conditions as rows of a sweep, without shared chaotic sets."""
+    parameters = parts.population(np.array([40.0]), BOX, parts.IDENTICAL)
+    found = label_entry(parameters, {**BOX, "axes": {"acceleration": [40.0]}})
+    own = table[table.acceleration == 40.0].set_index("state").starts
+    assert own.to_dict() == pd.Series(found.state).value_counts().to_dict()
+    assert own.sum() == BOX["starts"]
+
+
+def test_velocities_are_means_over_whole_cycles(table):
+    """They agree with single long runs, over fifty cycles after the first hundred."""
+    for state, start in (("second", Start(3e-4)), ("first", Start(0.0))):
+        x = simulate(Conveyor(acceleration=40.0), start, duration=3.0).sample(np.array([2.0, 3.0]))["x"]
+        row = table[(table.acceleration == 40.0) & (table.state == state)].iloc[0]
+        assert row.mean_velocity == pytest.approx(x[1] - x[0], rel=1e-6)
+    assert (table.status == "ok").all()
+    assert (table.velocity_stderr < 1e-6).all()
+    assert table.vertical.tolist() == pytest.approx(table.acceleration * math.sin(math.radians(12.0)) / 9.81)
+    assert table.stderr.tolist() == pytest.approx(np.sqrt(table.share * (1.0 - table.share) / BOX["starts"]))
+    assert (table.motion == table.groupby("acceleration").mean_velocity.rank(ascending=False)).all()
+
+
+def velocity(conveyor: Conveyor, start: Start, period: int, cycles: int = shares.CYCLES) -> tuple[float, str]:
+    """The mean velocity of one initial condition that has settled vertically after twenty cycles, and its status."""
+    labels = Columns({"period": np.array([period]), "cycles": np.array([20])})
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(shares, "CYCLES", cycles)
+        (found,), _, (status,) = shares.velocities(parameter_table(conveyor, start)[None], labels, BOX)
+    return found, status
+
+
+def test_velocities_wait_for_a_slow_horizontal_motion():
+    """With little friction the part gains speed for thousands of cycles, long after it has settled vertically."""
+    conveyor = Conveyor(friction=1e-3)
+    found, status = velocity(conveyor, Start(3e-4), 1, cycles=20)
+    x = simulate(conveyor, Start(3e-4), duration=100.0).sample(np.array([99.0, 100.0]))["x"]
+    assert status == "ok"
+    plate = 40.0 * math.cos(conveyor.angle) / (100.0 * math.pi)
+    assert found == pytest.approx(x[1] - x[0], abs=2.0 * shares.SETTLED * plate)
+    # With even less friction, six doublings of the time are not enough.
+    found, status = velocity(Conveyor(friction=1e-5), Start(3e-4), 1, cycles=20)
+    assert np.isnan(found)
+    assert status == "mean velocity not settled"
+
+
+@pytest.mark.parametrize(("acceleration", "z", "period"), [(40.0, 3e-4, 1), (80.0, 3e-4, 0)])
+def test_a_part_that_slides_on_a_steep_track_has_no_velocity(acceleration, z, period):
+    """Sliding friction takes less than the slope gives, whatever the static friction is."""
+    conveyor = Conveyor(acceleration=acceleration, inclination=-0.2, friction=0.15, static_friction=0.5)
+    found, status = velocity(conveyor, Start(z), period, cycles=20)
+    assert np.isnan(found)
+    assert status == regimes.SLIDES_AWAY
+    # A part that never slides stays.
+    found, status = velocity(replace(conveyor, acceleration=0.5), Start("conveyor"), 1, cycles=20)
+    assert (found, status) == (0.0, "ok")
+
+
+def test_how_steep_a_track_is_depends_on_both_coefficients_of_friction():
+    tracks = parameter_table(Conveyor(friction=0.2, static_friction=0.35), inclination=[-0.1, 0.3, 0.4])
+    assert list(regimes.steepness(tracks)) == [0, 1, 2]
+    level = parameter_table(Conveyor(friction=0.0), inclination=[0.0])
+    assert list(regimes.steepness(level)) == [0]
+
+
+def test_a_part_that_sticks_in_every_cycle_has_a_velocity_on_a_steep_track():
+    """Its mean velocity is larger than the largest velocity of the plate."""
+    amplitude = 7.0 / math.sin(0.5)
+    conveyor = Conveyor(angle=0.5, acceleration=amplitude, inclination=-0.2, friction=0.2, static_friction=0.5)
+    found, status = velocity(conveyor, Start("conveyor"), 1, cycles=20)
+    assert status == "ok"
+    assert found == pytest.approx(simulate(conveyor, Start("conveyor"), duration=8.0).mean_velocity(), rel=1e-7)
+    assert found > amplitude * math.cos(0.5) / (100.0 * math.pi)
+
+
+def test_velocities_are_means_over_whole_periods():
+    """A motion with a period of four cycles, over a number of cycles that is not a multiple of four."""
+    conveyor = Conveyor(acceleration=61.8)
+    assert classify(parameter_table(conveyor, Start(3e-4))[None]).period.tolist() == [4]
+    found, status = velocity(conveyor, Start(3e-4), 4, cycles=251)
+    x = simulate(conveyor, Start(3e-4), duration=40.0).sample(np.array([32.0, 40.0]))["x"]
+    assert status == "ok"
+    assert found == pytest.approx((x[1] - x[0]) / 8.0, rel=1e-7)
+
+
+def test_runs_with_the_same_beginning_are_followed_once():
+    """The means over the beginning of a run and over the whole run equal the means of two runs."""
+    rows = np.stack([parameter_table(Conveyor(acceleration=a), Start(z0)) for a in (40.0, 80.0) for z0 in (0.0, 3e-4)])
+    durations = np.array([[0.4, 0.6], [0.4, 0.8], [0.2, 0.8], [0.4, 0.9]])
+    means, peaks, status = shares.last_quarters(rows, durations, 1e-9, 1)
+    for k, (mean, duration) in enumerate(zip(means.T, durations.T, strict=True)):
+        alone = ensemble.sweep(rows, duration=duration, tolerance=1e-9)
+        assert mean.tolist() == alone["mean_velocity"].tolist()
+        if k == 1:  # peaks of the longest run
+            np.testing.assert_array_equal(peaks, np.column_stack([alone["impact_speed"], alone["peak_force"]]))
+    assert (status == "ok").all()
+
+
+def test_samples_of_both_first_runs_ascend(monkeypatch):
+    """Also if a mean covers less than a period."""
+    wanted = []
+
+    def last_quarters(parameters, durations, *_):
+        wanted.append(durations)
+        return np.ones_like(durations), np.ones((len(durations), 2)), np.full(len(durations), "ok")
+
+    monkeypatch.setattr(shares, "last_quarters", last_quarters)
+    for period in (0, 1, 100, 400):
+        velocity(Conveyor(), Start(0.0), period, cycles=1)
+    assert all((0.75 * durations[:, 1:] >= durations[:, :-1]).all() for durations in wanted)
+
+
+def test_brief_runs_are_as_long_as_friction_needs():
+    """On a track steeper than friction holds, no length helps."""
+    rows = np.stack([parameter_table(Conveyor(inclination=alpha), Start()) for alpha in (0.0, -0.147, 0.14888, 0.2)])
+    flat, steep, steepest, beyond = shares.brief_durations(rows, np.ones(4, dtype=int), 60) * 50.0
+    assert flat == beyond == pytest.approx(60.0)
+    assert 60.0 < steep < steepest == pytest.approx(shares.MOST_CYCLES)
+
+
+def test_a_run_that_fails_says_why_there_is_no_velocity():
+    found, status = velocity(Conveyor(damping=1e6, mass=1e-6), Start(3e-4), 1)
+    assert np.isnan(found)
+    assert status == "contact too stiff"
+
+
+@pytest.mark.parametrize(
+    ("states", "statuses", "wanted"),
+    [
+        ("first", ["ok", "ok"], (2.0, 1.0, "ok")),  # 1 and 3 m/s: a standard error of 1
+        ("first", ["ok", "mean velocity not settled"], (np.nan, np.nan, "mean velocity not settled")),
+        ("undecided", ["ok", "ok"], (np.nan, np.nan, "state not decided")),
+    ],
+)
+def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, wanted):
+    def motions_found(parameters, *_, **__):
+        n = len(parameters)
+        labels = {"state": np.full(n, states), "period": np.ones(n, np.int64), "longest_flight": np.zeros(n)}
+        return Columns(labels | {"cycles": np.arange(n)})
+
+    monkeypatch.setattr(shares, "label_starts", motions_found)
+    velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)
+    monkeypatch.setattr(shares, "velocities", lambda *_, **__: velocities)
+    row = shares.shares_at(np.array([40.0]), BOX, followed=2).iloc[0]
+    assert (row.mean_velocity, row.velocity_stderr, row.status) == pytest.approx(wanted, nan_ok=True)
+    assert row.starts == BOX["starts"]
+    peaks = (0.2, 2.0) if row.status == "ok" else (np.nan, np.nan)
+    assert (row.impact_speed, row.peak_force) == pytest.approx(peaks, nan_ok=True)
+
+
+def test_the_standard_error_agrees_with_repeated_draws():
+    drawn = [
+        shares.shares_at(np.array([40.0]), {**BOX, "seed": seed}, followed=2).set_index("state").loc["first"]
+        for seed in range(30)
+    ]
+    share = np.array([row.share for row in drawn])
+    # A standard deviation from thirty draws is known to an eighth.
+    assert share.std(ddof=1) == pytest.approx(np.mean([row.stderr for row in drawn]), rel=0.4)
+
+
+def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
+    """Lengths in g/ω², velocities in g/ω: another frequency, gravity and mass, with matching damping and stiffness."""
+    paper = Conveyor()
+    frequency, gravity, mass = 3.0, 1.7, 5.0
+    length, velocity = gravity / frequency**2, gravity / frequency
+    model = {
+        "frequency": frequency * paper.frequency,
+        "gravity": gravity * paper.gravity,
+        "mass": mass * paper.mass,
+        "damping": mass * frequency * paper.damping,
+        "stiffness": mass * gravity / length**paper.exponent * paper.stiffness,
+    }
+    box = {"height": [length * end for end in BOX["height"]], "vz0": [velocity * end for end in BOX["vz0"]]}
+    other = shares.shares_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model}, followed=2)
+    for name in ("state", "period", "starts", "share", "stderr", "motion"):
+        assert (other[name] == table[name]).all(), name
+    assert np.allclose(other.vertical, table.vertical, rtol=1e-12)
+    assert np.allclose(other.mean_velocity, velocity * table.mean_velocity, rtol=1e-6)
+
+
+def rows_at(acceleration: float) -> dict[str, list]:
+    """Made-up motions: one velocity below 31.4 m/s², two up to 50 (one of them by two motions), chaos and a jumping
+    motion above 50, chaos alone above 56.
+    """
+    common = {"period": 1, "longest_flight": 0.0, "velocity_stderr": 0.0, "status": "ok", "stderr": 0.05}
+    common |= {"acceleration": acceleration, "vertical": acceleration / 47.0}
+    motions = [("first", 100, 0.01)]
+    if acceleration > 31.4:
+        jump = 30 if acceleration < 40.0 else 34
+        motions = [("second", jump - 10, 0.06), ("second", 10, 0.0595), ("first", 100 - jump, 0.01)]
+    if acceleration > 50.0:
+        motions = [("second", 20, 0.07), ("chaos", 80, 0.05)]
+    if acceleration > 56.0:
+        motions = [("chaos", 100, 0.05)]
+    return [
+        {**common, "motion": k, "state": state, "starts": starts, "share": starts / 100.0, "mean_velocity": velocity}
+        for k, (state, starts, velocity) in enumerate(motions, start=1)
+    ]
+
+
+def made_up(amplitudes, settings, **options):
+    return pd.DataFrame([row for acceleration in amplitudes for row in rows_at(acceleration)])
+
+
+SETTINGS = {**BOX, "acceleration": {"start": 20.0, "stop": 60.0, "num": 9}, "resolution": 0.2, "starts": 100}
+
+
+@pytest.fixture(scope="module")
+def refined() -> pd.DataFrame:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(shares, "shares_at", made_up)
+        found = shares.make(SETTINGS)["shares"]
+    found.attrs = SETTINGS | {
+        "model": {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0, "frequency": 50.0}
+    }
+    return found
+
+
+def test_amplitudes_are_halved_where_the_answer_changes(refined):
+    places = refined.acceleration.unique()
+    assert (np.diff(places) > 0.0).all()
+    for change in (31.4, 50.0):
+        below, above = places[places <= change].max(), places[places > change].min()
+        assert above - below <= SETTINGS["resolution"]
+    assert len(places) < 30
+
+
+def test_boundaries_are_located_with_a_limited_number_of_amplitudes(monkeypatch):
+    monkeypatch.setattr(shares, "shares_at", made_up)
+    monkeypatch.setattr(shares, "MOST_ADDED", 0)
+    table = shares.make(SETTINGS)["shares"]
+    np.testing.assert_array_equal(np.unique(table.acceleration), np.linspace(20.0, 60.0, 9))
+    table.attrs = SETTINGS
+    assert chart.summarize_shares(table)["located"] == 5.0
+
+
+@pytest.mark.parametrize(
+    ("ends", "words"),
+    [((0.0648, 0.141), "0.0648 to 0.141"), ((0.1, 0.10001), "0.1"), ((np.nan, np.nan), "not known")],
+)
+def test_numbers_in_words(ends, words):
+    assert format_range(ends) == words
+
+
+def test_chaos_begins_at_its_lowest_amplitude():
+    """Also if motion is regular at a higher amplitude."""
+    found = pd.DataFrame(
+        {
+            "regime": [regimes.ONE, regimes.BESIDE, regimes.ONE, regimes.CHAOS],
+            "states": ["first", "chaos, first", "second", "chaos"],
+            "begin": [20.0, 30.0, 40.0, 50.0],
+            "end": [29.0, 39.0, 49.0, 60.0],
+        }
+    )
+    parts = chart.summarize_regimes(found, found)
+    assert [row["begin"] for row in parts["chaos"]] == [30.0]
+    assert [(row["begin"], row["end"]) for row in parts["only_chaos"]] == [(50.0, 60.0)]
+    assert parts["unknown"] == []
+
+
+def measures(**changed: float) -> dict[str, float]:
+    """Made-up measures of a population."""
+    found = dict.fromkeys((column.name for column in transit.MEASURES), 0.0) | {"failed": 0}
+    found |= {"velocity_05": 0.02, "velocity_50": 0.03, "velocity_95": 0.05, "mean_velocity": 0.03, "spread": 1.0}
+    return found | {"late": 0.125, "impact_speed": 0.1, "peak_force": 0.5} | changed
+
+
+def advised(**worst: float) -> list[pd.DataFrame]:
+    """Made-up tables of transit, advice and changes."""
+    rows = pd.DataFrame([measures(acceleration=a, population="varied") for a in (31.0, 58.0)])
+    rows.attrs = {"length": 0.5, "longest": 20.0, "starts": 256, "spread": {"friction": 0.15, "mass": 0.0, "seed": 1}}
+    rows.attrs["model"] = {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0, "frequency": 50.0}
+    common = {"throw_number": 0.66, "velocity_worst": 0.01, "spread_worst": 1.1, "back_worst": 0.0} | worst
+    fast = measures(aim="fast", acceleration=31.0, states="first 90 %, second 10 %", states_acceleration=31.1, **common)
+    even = measures(aim="even", acceleration=58.0, states="chaos 100 %", states_acceleration=55.0, **common) | {
+        "spread": 0.2,
+        "back": 0.01,
+    }
+    advice_rows = pd.DataFrame([fast, even])
+    advice_rows.attrs = {"margin": 0.01, "part_length": 0.02, "changes": {"friction": 0.02, "angle": 0.02}}
+    changes = [
+        {"aim": "fast", "parameter": "friction", "value": 0.17, "gain": 0.2, "widening": -0.004},
+        {"aim": "fast", "parameter": "friction", "value": 0.13, "gain": 0.05, "widening": -0.1},
+        {"aim": "fast", "parameter": "angle", "value": 0.2, "gain": -0.2, "widening": -0.5},
+        {"aim": "fast", "parameter": "angle", "value": 0.24, "gain": 0.1, "widening": math.nan},
+        {"aim": "even", "parameter": "angle", "value": 0.2, "gain": -0.2, "widening": -0.5},
+    ]
+    return [rows, advice_rows, pd.DataFrame(changes).assign(gain_stderr=0.032, widening_stderr=0.01, velocity_05=0.03)]
+
+
+def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame], assumed: tuple[str, ...] = ()) -> str:
+    rows, advice_rows, changes = tables
+    return chart.make(TEMPLATE, rows, shares_table, intervals_of(shares_table), advice_rows, changes, assumed)
+
+
+def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
+    return regimes.intervals_of(regimes.summarize_amplitudes(table), table)
+
+
+def test_no_amplitude_is_recommended_where_parts_move_back(refined):
+    rows, *others = advised()
+    back = rows.assign(velocity_95=-0.01)
+    back.attrs = rows.attrs
+    page = page_of(refined, [back, *others])
+    assert (
+        "**At no amplitude do more than 5 % of the parts move forward** (faster than 1 % of the plate's largest "
+        "velocity), so there is no amplitude to recommend. A" in page
+    )
+    assert "- **Amplitude" not in page and "relative spread is" not in page
+    steep = refined.assign(status=regimes.SLIDES_AWAY)
+    steep.attrs = refined.attrs
+    assert "too steep for friction to stop a part" in page_of(steep, [back, *others])
+
+
+def test_the_page_begins_with_the_advice(refined):
+    page = page_of(refined, advised())
+    assert page.startswith("# Operating chart\n\n## Where to run the conveyor\n\n**Fast for nearly all parts.**")
+    assert "- **Amplitude 31 m/s²** (peak acceleration along the direction of vibration), throw number" in page
+    assert "- **Velocity 3 cm/s** (median); 90 % of the parts have 2 to 5 cm/s (relative spread 1 ± 0); with" in page
+    assert "- Up to 90 parts of 20 mm per minute at this velocity, one behind the other\n" in page
+    assert "- Late: 12.5 % of the parts need more than 20 s for 0.5 m. None has moved back\n" in page
+    assert "- Impact speed up to 0.1 m/s, contact force up to 0.5 N (50 times the weight of the part)" in page
+    assert "- State of motion: first 90 %, second 10 % of the initial conditions\n" in page
+    assert "- State of motion at 55 m/s², the nearest amplitude at which it was examined: chaos 100 % of" in page
+    assert "  - friction of 0.17 (now 0.15): velocity +20 ± 4 %, spread -0.4 ± 1.0 %\n" in page
+    assert "  - angle of 13.8° (now 12°): velocity +10 ± 4 %\n" in page
+    assert page.index("**Even.**") < page.index("- **Amplitude 58 m/s²**") < page.index("## What the conveyor does")
+    assert "1.0 % have moved back" in page
+    assert page.count("(now ") == 3
+    assert "The parts differ: relative standard deviations are 15 % of friction." in page
+    assert "Assumed" not in page
+    assumed = page_of(refined, advised(), ("friction", "mass"))
+    told = "Assumed, because `parts` in the config does not state them: friction (15 %) and mass (0 %)."
+    assert f"are 15 % of friction. {told} The recommendation" in " ".join(
+        assumed.replace("Both recommendations allow", "The recommendation").split()
+    )
+
+
+def test_the_page_says_that_riding_parts_have_no_impacts(refined):
+    assert "- No impacts, contact force up to 0.5 N" in page_of(refined, advised(impact_speed=0.0))
+
+
+def test_the_page_says_that_parts_move_back_everywhere(refined):
+    tables = advised(velocity_worst=-0.01)
+    tables[1] = tables[1].head(1)
+    tables[0].attrs["spread"] = {"friction": 0.0, "seed": 1}
+    page = page_of(refined, tables)
+    assert "**At no amplitude do 95 % of the parts move forward** if the amplitude may be up to 1 % too large" in page
+    assert "**Even.**" not in page
+    assert "All parts have equal parameters" in page
+
+
+def test_the_page_names_harmonics_of_the_plate(refined):
+    tables = advised()
+    assert "whose motion has" not in page_of(refined, tables)
+    tables[0].attrs["model"] = tables[0].attrs["model"] | {"harmonics": [{"order": 2}, {"order": 3}]}
+    assert "on a plate whose motion has harmonics of the orders 2 and 3. They come" in page_of(refined, tables)
+
+
+def test_large_forces_have_no_exponent_and_unknown_ones_are_left_out(refined):
+    page = page_of(refined, advised(peak_force=128.0))
+    assert "contact force up to 130 N (13000 times the weight of the part)" in page
+    tables = advised()
+    tables[1] = tables[1].assign(peak_force=math.nan)
+    tables[1].attrs = advised()[1].attrs
+    page = page_of(refined, tables).split("## What")[0]
+    assert "contact force" not in page
+    assert "Impacts and forces are not known: all parts arrive within 0.4 s" in page
+
+
+def test_the_page_says_which_parts_its_forces_belong_to(refined):
+    """Twenty cycles of 50 Hz take 0.4 s."""
+    assert "for 95 % of the parts that are on the track for more than 0.4 s, the time" in page_of(refined, advised())
+
+
+@pytest.mark.parametrize(("stderr", "unsure"), [(0.0, False), (0.01, True)])
+def test_the_page_says_if_the_even_amplitude_is_not_known_to_be_more_even(refined, stderr, unsure):
+    rows, advice_rows, changes = advised()
+    attrs, advice_rows = advice_rows.attrs, advice_rows.assign(spread_worst=[1.1, 1.0])
+    advice_rows[[name for name in advice_rows if name.endswith("_stderr")]] = stderr
+    advice_rows.attrs = attrs
+    page = page_of(refined, [rows, advice_rows, changes])
+    assert "**Even.**" in page
+    assert ("the first amplitude may be as even." in page) == unsure
+
+
+def test_the_page_names_changes_that_the_model_does_not_allow(refined):
+    tables = advised()
+    tables[1].attrs["changes"] = {"friction": 0.2}
+    page = page_of(refined, tables)
+    assert "- Not tested, because the model does not allow this value: friction of -0.05\n" in page
+    tables[1].attrs["changes"] = {"friction": 1e6}
+    page = page_of(refined, [*tables[:2], tables[2].iloc[:0]])
+    assert "these values: friction of -1000000 and friction of 1000000\n" in page
+    assert "No tested change" not in page
+
+
+def test_a_spread_without_a_known_error_is_given(refined):
+    assert "(relative spread 1)" in page_of(refined, advised(velocity_05_stderr=math.nan))
+
+
+def test_the_page_says_that_fast_parts_slide_away(refined):
+    steep = refined.assign(status=regimes.SLIDES_AWAY)
+    steep.attrs = refined.attrs
+    page = page_of(steep, advised())
+    assert page.index("**Fast for nearly all parts.**") < page.index("too steep") < page.index("- **Amplitude")
+    assert "too steep" not in page_of(refined, advised())
+
+
+def test_the_page_says_that_the_range_ends_and_that_parts_do_not_arrive(refined):
+    """The made-up table has the two recommended amplitudes only."""
+    tables = advised()
+    page = page_of(refined, tables)
+    assert page.count("The range of amplitudes ends here") == 2 and "do not arrive" not in page
+    beyond = pd.concat([tables[0], tables[0].assign(acceleration=[20.0, 90.0])])
+    late = tables[1].assign(late=0.9)
+    beyond.attrs, late.attrs = tables[0].attrs, tables[1].attrs
+    page = page_of(refined, [beyond, late, tables[2]])
+    assert "The range of amplitudes ends here" not in page
+    assert "Most parts do not arrive in this time: raise `transit.longest`" in page
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.15])
+def test_the_page_says_that_parts_have_calibrated_parameters(refined, friction):
+    tables = advised()
+    tables[0].attrs["spread"] = {"friction": friction, "calibrated": True, "seed": 1}
+    page = page_of(refined, tables)
+    assert "The parameters of each part are drawn from the samples of the calibration" in page
+    assert "of calibrated" not in page and "All parts have equal parameters" not in page
+    assert ("15 % of friction" in page) == (friction > 0.0)
+
+
+def made_up_transit(slowest: list[float], spread: list[float]) -> pd.DataFrame:
+    return pd.DataFrame({"acceleration": 10.0 * np.arange(len(spread)), "velocity_05": slowest, "spread": spread})
+
+
+def around_with(table: pd.DataFrame, ends: dict[int, tuple[float, float]]):
+    """The measures at a place, and at the ends of its margin if they differ there."""
+
+    def around(place: int) -> pd.DataFrame:
+        rows = table.iloc[[place, place]].copy()
+        if place in ends:
+            rows.iloc[1, 1:] = ends[place]
+        return rows
+
+    return around
+
+
+@pytest.mark.parametrize(
+    ("ends", "expected"),
+    [
+        ({}, {"fast": 1, "even": 2}),
+        ({1: (0.01, 0.5)}, {"fast": 3, "even": 2}),  # slow within the margin
+        ({2: (0.05, 0.9)}, {"fast": 1, "even": 3}),  # uneven within the margin
+        ({2: (0.01, 0.1)}, {"fast": 1, "even": 3}),  # too slow within the margin
+    ],
+)
+def test_advice_must_hold_within_the_margin(ends, expected):
+    table = made_up_transit([-0.1, 0.09, 0.05, 0.08, 0.01], [0.1, 0.5, 0.2, 0.3, 0.05])
+    assert advice.choose(table, around_with(table, ends)) == expected
+
+
+def test_unknown_and_backward_velocities_give_less_advice():
+    table = made_up_transit([-0.1, -0.02, np.nan], [0.1, 0.5, 0.2])
+    assert advice.choose(table, around_with(table, {})) == {"fast": 1}
+    table = made_up_transit([np.nan], [np.nan])
+    assert advice.choose(table, around_with(table, {})) == {}
+
+
+def test_advice_has_the_measures_of_its_amplitude_and_of_changed_conveyors():
+    settings = TABLES["operating/transit"](si_config()) | {"starts": 16, "longest": 1.0}
+    table = transit.measure(np.array([40.0, 80.0]), settings)
+    table.attrs = settings
+    shares_table = pd.DataFrame({"acceleration": [39.0, 39.0, 81.0], "state": ["first", "second", "chaos"]})
+    shares_table = shares_table.assign(share=[0.3, 0.7, 1.0])
+    found = advice.make(table, shares_table, {"margin": 0.01, "changes": {"friction": 0.02}})
+    told, changes = pd.DataFrame(found["advice"]), pd.DataFrame(found["changes"])
+    fast = told.iloc[0]
+    own = table[(table.population == "varied") & (table.acceleration == fast.acceleration)].iloc[0]
+    assert (fast.aim, fast.acceleration, fast.states) == ("fast", 80.0, "chaos 100 %")
+    assert fast.velocity_05 == own.velocity_05 == table[table.population == "varied"].velocity_05.max()
+    ends = transit.measure(np.array([79.2, 80.8]), settings, ("varied",))
+    assert fast.velocity_worst == min(fast.velocity_05, ends.velocity_05.min())
+    more = changes[(changes.aim == "fast") & (changes.value > 0.15)].iloc[0]
+    other = {**settings, "model": settings["model"] | {"friction": settings["model"]["friction"] + 0.02}}
+    alone = transit.measure(np.array([80.0]), other, ("varied",)).iloc[0]
+    assert more.velocity_05 == alone.velocity_05
+    assert more.gain == pytest.approx(alone.velocity_05 / own.velocity_05 - 1.0)
+    assert more.widening == pytest.approx(alone.spread / own.spread - 1.0)
+    found = advice.describe_states(shares_table, 40.0)
+    assert found == {"states": "second 70 %, first 30 %", "states_acceleration": 39.0}
+
+
+def test_changes_are_for_the_same_calibrated_parts():
+    """A change that changes nothing leaves velocity and spread as they are."""
+    settings = TABLES["operating/transit"](si_config()) | {"starts": 16, "longest": 1.0}
+    samples = pd.DataFrame({"friction": settings["model"]["friction"] * np.array([0.5, 1.0, 2.0])})
+    calibration = samples, pd.DataFrame({"parameter": ["friction"], "best": [settings["model"]["friction"]]})
+    own = parts.with_calibration(settings, *calibration)
+    table = transit.measure(np.array([40.0, 80.0]), own)
+    table.attrs = settings
+    shares_table = pd.DataFrame({"acceleration": [40.0], "state": ["first"], "share": [1.0]})
+    found = advice.make(table, shares_table, {"margin": 0.0, "changes": {"friction": 0.0}}, *calibration)
+    changes = pd.DataFrame(found["changes"])
+    assert len(changes) > 0 and (changes.gain == 0.0).all() and (changes.widening == 0.0).all()
+
+
+def test_static_friction_keeps_its_ratio_and_values_out_of_range_are_left_out():
+    model = {"friction": 0.1, "static_friction": 0.2}
+    assert advice.with_parameter(model, "friction", 0.15)["static_friction"] == pytest.approx(0.3)
+    assert advice.with_parameter({"friction": 0.15}, "friction", 0.2) == {"friction": 0.2}
+    settings = TABLES["operating/transit"](si_config()) | {"starts": 8, "longest": 0.2}
+    settings["model"] = settings["model"] | {"friction": 0.01}
+    raised = settings | {"model": settings["model"] | {"friction": 0.03}}
+    (change,) = advice.changes_at(40.0, settings, {"friction": 0.02})
+    assert change["value"] == 0.03
+    velocity = [transit.measure(np.array([40.0]), one, ("varied",)).velocity_05[0] for one in (settings, raised)]
+    assert change["gain"] == pytest.approx((velocity[1] - velocity[0]) / abs(velocity[0]), rel=1e-12)
+
+
+def test_a_change_that_affects_all_parts_equally_has_no_error():
+    """Errors come from the same parts before and after, so that the differences between parts do not count."""
+    before = np.random.default_rng(1).normal(1.0, 0.2, 64)
+    found = advice.compare(before, 1.1 * before, seed=1)
+    assert found["gain"] == pytest.approx(0.1) and found["widening"] == pytest.approx(0.0, abs=1e-12)
+    assert max(found["gain_stderr"], found["widening_stderr"]) < 1e-12
+    other = advice.compare(before, np.random.default_rng(2).normal(1.1, 0.2, 64), seed=1)
+    assert 0.03 < other["gain_stderr"] < 0.4
+    still = advice.compare(np.zeros(64), before, seed=1)
+    assert all(math.isnan(value) for value in still.values())
+
+
+def interval_rows(*rows: tuple[str, float, float]) -> pd.DataFrame:
+    numbers = {"velocity_low": 0.1, "best_low": 0.2, "best_high": 0.3, "best_share_low": 0.4, "best_share_high": 0.5}
+    common = numbers | {"best_share_stderr": 0.0, "step": 0.1, "amplitudes": 2}
+    table = pd.DataFrame(rows, columns=["regime", "begin", "end"])
+    return table.assign(number=np.arange(len(rows)), states=table.regime, **common)
+
+
+def test_narrow_intervals_are_merged_into_their_wider_neighbour():
+    """The narrow interval of chaos between two with one velocity goes; the interval at 60 m/s² joins the wider side."""
+    table = interval_rows(
+        *((regimes.ONE, 20.0, 29.9), (regimes.CHAOS, 30.0, 30.05), (regimes.ONE, 30.1, 40.0)),
+        *((regimes.SEVERAL, 40.1, 59.9), (regimes.BESIDE, 60.0, 60.1), (regimes.CHAOS, 60.2, 61.5)),
+    )
+    table.loc[1, "velocity_low"] = 0.05
+    found = regimes.merge_narrow(table, 0.01)
+    assert found.regime.tolist() == [regimes.ONE, regimes.SEVERAL, regimes.CHAOS]
+    assert found.begin.tolist() == [20.0, 40.1, 60.2]
+    assert found.end.tolist() == [40.0, 60.1, 61.5]
+    assert found.velocity_low.tolist() == [0.05, 0.1, 0.1]
+    assert found.amplitudes.tolist() == [6, 4, 2]
+    assert found.states.tolist() == [
+        f"{regimes.ONE}, {regimes.CHAOS}",
+        f"{regimes.SEVERAL}, {regimes.BESIDE}",
+        regimes.CHAOS,
+    ]
+    pd.testing.assert_frame_equal(regimes.merge_narrow(table, 1e-6), table)
+    assert len(regimes.merge_narrow(table, 0.9)) == 1
+
+
+def test_an_unknown_interval_is_no_part_of_its_neighbour():
+    for rows in (
+        ((regimes.ONE, 20.0, 30.0), (regimes.UNKNOWN, 30.1, 30.1), (regimes.CHAOS, 30.2, 40.0)),
+        ((regimes.ONE, 20.0, 40.0), (regimes.UNKNOWN, 40.2, 40.2), (regimes.SEVERAL, 40.4, 40.6)),
+        ((regimes.UNKNOWN, 20.0, 20.0), (regimes.ONE, 20.2, 20.2)),
+    ):
+        found = regimes.merge_narrow(interval_rows(*rows), 0.01)
+        assert found.regime.tolist() == [regime for regime, _, _ in rows]
+
+
+def test_the_page_says_what_merged_intervals_hide(refined):
+    """With a margin of 30 %, the two intervals with chaos count as a part of their neighbour."""
+    tables = advised()
+    tables[1].attrs["margin"] = 0.3
+    page = page_of(refined, tables)
+    assert "intervals narrower than 30 % of the amplitude count as a part of a wider neighbour" in page
+    assert "In no interval of the table do all initial conditions end in chaos." in page
+    assert "30 to 34 % of the initial conditions reach it. This share is largest (34.0 ±" in page
+    assert "Chaos begins at 50." in page
+    table = page[page.index("| Amplitude in m/s² |") :]
+    assert "| several velocities | first, second, chaos |" in table
+
+
+def test_an_interval_with_one_velocity_has_the_velocities_of_its_own_motions():
+    """Not those of a narrow interval of chaos that counts as a part of it."""
+    rows = [(20.0, "first", 0.01), (30.0, "first", 0.02), (30.2, "chaos", 0.06), (30.4, "first", 0.021)]
+    table = pd.DataFrame(rows, columns=["acceleration", "state", "mean_velocity"]).assign(share=1.0, starts=10)
+    found = chart.describe_one_velocity(table, {"begin": 20.0, "end": 30.4})
+    assert (found["states"], found["velocity"]) == (["first"], [0.01, 0.021])
+
+
+def test_the_largest_share_belongs_to_an_amplitude_that_the_page_names(refined):
+    most = chart.summarize_fastest(refined, [{"begin": 20.0, "end": 60.0}])["most"]
+    assert most["acceleration"] >= 40.0 and most["best_share"] == pytest.approx(0.34)
+    most = chart.summarize_fastest(refined, [{"begin": 20.0, "end": 36.0}])["most"]
+    assert most["best_share"] == pytest.approx(0.3)
+
+
+def test_regimes_and_their_words(refined):
+    found = intervals_of(refined)
+    assert list(found.regime) == [regimes.ONE, regimes.SEVERAL, regimes.BESIDE, regimes.CHAOS]
+    assert list(found.best_share_low) == pytest.approx([1.0, 0.3, 0.2, 1.0])
+    assert list(found.best_share_high) == pytest.approx([1.0, 0.34, 0.2, 1.0])
+    assert list(found.velocity_low) == [0.01, 0.01, 0.05, 0.05]
+    assert list(found.states) == ["first", "first, second", "chaos, second", "chaos"]
+    assert found.best_share_stderr[1] == pytest.approx(math.sqrt(0.34 * 0.66 / 100))
+    # The amplitudes of the config are 5 m/s² apart; closer ones were added where the answer changes.
+    assert list(found.step[:2]) == [5.0, 5.0]
+    page = page_of(refined, advised())
+    assert "All initial conditions reach one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
+    assert "Several velocities exist side by side, without chaos, at 31.4 to 50.0 m/s²" in page
+    assert "\n30 to 34 % of the initial conditions reach it." in page
+    assert "This share is largest (34.0 ± 4.7 %) at 40 m/s², with 0.06 m/s." in page
+    assert "Chaos begins at 50.2 m/s². All initial conditions end in chaos at 56.1 to 60.0 m/s²." in page
+    assert "from heights of 0 to 0.5 mm above" in page
+    assert "at 95 % confidence, fewer than 3 % of all initial conditions in\nthese ranges lead to" in page
+    assert "is not known." not in page
+
+
+@pytest.mark.parametrize(
+    ("states", "velocities", "regime"),
+    [
+        (["first"], [0.01], regimes.ONE),
+        (["second", "second"], [0.1, 0.09802], regimes.ONE),
+        (["second", "second"], [0.1, 0.0975], regimes.SEVERAL),
+        (["first", "first"], [0.01, -0.01], regimes.SEVERAL),
+        (["chaos", "chaos"], [0.1, 0.1], regimes.CHAOS),
+        (["chaos", "second"], [0.1, 0.1], regimes.BESIDE),
+        (["second", "undecided"], [0.1, 0.1], regimes.UNKNOWN),
+        (["second", "first"], [0.1, np.nan], regimes.UNKNOWN),
+    ],
+)
+def test_regime_of_an_amplitude(states, velocities, regime):
+    assert regimes.regime_of(np.array(states), np.array(velocities)) == regime
+
+
+def test_a_table_without_known_amplitudes_gives_no_advice(refined):
+    """The table has a single amplitude, whose regime is not known."""
+    alone = refined[refined.acceleration == 20.0].assign(state="undecided", mean_velocity=np.nan)
+    rows, advice_rows, changes = advised()
+    advice_rows = advice_rows.iloc[:0]
+    advice_rows.attrs = {"margin": 0.01, "changes": {}}
+    page = page_of(alone, [rows, advice_rows, changes.iloc[:0]])
+    assert "No part could be followed at any amplitude, so there is no advice." in page
+    assert "At no amplitude are all initial conditions known to reach one velocity" in page
+    assert "No initial condition is known to end in chaos." in page
+    assert "At no amplitude are several regular motions of different velocities known to exist side by side" in page
+    assert "At 20.0 m/s², the state or the velocity of a motion is not known." in page
+    assert "| 20.0 | 0.426 | unknown | undecided | not known | not known | not known |" in page
+
+
+def test_conveyors_with_equal_groups_have_equal_motions_over_the_throw_number():
+    """The example is the config's conveyor in other units of length and time, on a climbing track."""
+    gravity, frequency = math.cos(0.4), 2.0
+    paper, unit = Conveyor(), math.cos(0.4) / 4.0
+    example = {
+        "inclination": 0.4,
+        "frequency": frequency * paper.frequency,
+        "damping": frequency * paper.damping,
+        "stiffness": gravity / unit**paper.exponent * paper.stiffness,
+    }
+    settings = {**BOX, "throw_number": {"start": 0.5, "stop": 1.1, "num": 3}, "starts": 32}
+    settings["model"] = {name: getattr(paper, name) for name in ("frequency", "gravity", "inclination", "angle")}
+    found = throws.make([yaml.safe_dump({"prefix": "other", "model": example})], settings)
+    one, other = (found[found.conveyor == name].sort_values(["vertical", "starts"]) for name in ("paper", "other"))
+    assert one.vertical.unique() == pytest.approx([0.5, 0.8, 1.1])
+    assert other.vertical.tolist() == pytest.approx(one.vertical.tolist())
+    for name in ("state", "period", "starts"):
+        assert one[name].tolist() == other[name].tolist()
+    assert ((one.textbook > 0.0) == (one.vertical > 1.0)).all()

@@ -1,0 +1,123 @@
+"""Strobes and exponents at a few amplitudes where they are known."""
+
+from collections import namedtuple
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+from project import read_config
+
+from conveyor_pipeline.paper.orbits import branches, exponents, seeds, strobes
+from conveyor_pipeline.common import grid
+from conveyor_pipeline.common.rule_log import JobError
+
+MODEL = {
+    "acceleration": 40.0,
+    "angle": 0.20943951023931956,
+    "frequency": 50.0,
+    "psi0": 0.0,
+    "stiffness": 5e5,
+    "damping": 0.3,
+    "friction": 0.15,
+    "mass": 0.7e-3,
+    "exponent": 1.5,
+    "gravity": 9.81,
+    "tension": "allow",
+    "z0": 0.0,
+    "vz0": 0.0,
+}
+SETTINGS = {
+    "acceleration": {"start": 70.0, "stop": 90.0, "num": 3},
+    "transient": 300,
+    "strobes": 16,
+    "settling": 2000,
+    "tolerance": 1e-10,
+    "model": MODEL,
+}
+
+
+@pytest.fixture(scope="module")
+def tables():
+    """Strobes and their spectrum of exponents: rest and riding upwards, chaos at 80 m/s²."""
+    still = {**SETTINGS, "acceleration": {"start": 0.0, "stop": 80.0, "num": 3}}
+    points = pd.DataFrame(strobes.make(still))
+    return points, pd.DataFrame(exponents.make(points, still))
+
+
+def test_a_resting_part_has_the_static_penetration(tables):
+    points, _ = tables
+    rest = points[points.acceleration == 0.0]
+    assert len(rest) == 2 * SETTINGS["strobes"]
+    # Oscillations decay with -d_c/2m; after 300 cycles only rounding errors remain.
+    static = (MODEL["mass"] * MODEL["gravity"] / MODEL["stiffness"]) ** (1.0 / MODEL["exponent"])
+    up = rest[rest.branch == "up"]
+    assert up.delta.to_numpy() == pytest.approx(np.full(len(up), static), rel=1e-6)
+    assert up.period.unique().tolist() == [1]
+
+
+def test_exponents_sum_to_the_damping_in_contact(tables):
+    _, spectrum = tables
+    loss = -MODEL["damping"] / MODEL["mass"] * spectrum.contact_fraction
+    assert (spectrum.lambda_1 + spectrum.lambda_2).to_numpy() == pytest.approx(loss.to_numpy(), abs=1e-6)
+    rest = spectrum[spectrum.acceleration == 0.0]
+    assert rest.lambda_1.to_numpy() == pytest.approx(-MODEL["damping"] / (2.0 * MODEL["mass"]), rel=1e-3)
+
+
+def test_only_chaos_has_a_positive_exponent(tables):
+    _, spectrum = tables
+    positive = spectrum.lambda_1 > exponents.SIGNIFICANT * spectrum.stderr
+    assert (positive == (spectrum.acceleration == 80.0)).all()
+
+
+def test_limits_below_the_first_doubling_are_named():
+    section = read_config("orbits")["orbits"]
+    settings = {**section, "limits": [20.0, 45.0], "max_period": 1, "model": MODEL}
+    with pytest.raises(JobError, match=r"up to 45\.\d+ m/s².*upper value of orbits\.limits"):
+        branches.make(settings)
+
+
+def test_seeds_are_found():
+    """At 35 to 45 m/s² a part rides or jumps with the period of the excitation, and no cascade begins."""
+    section = read_config("orbits")["orbits"]
+    settings = {**section, "limits": [35.0, 45.0], "max_period": 1, "model": MODEL}
+    del settings["seeds"]
+    found = seeds.seeds(grid.row_of(settings["model"]), settings)
+    assert {orbit.period for orbit in found} == {1}
+    assert {orbit.longest_flight > 0.5 for orbit in found} == {True, False}
+    tables = branches.make(settings)
+    assert len(set(tables["branches"]["branch"])) == 2
+    assert len(tables["cascade"]["number"]) == 0
+
+
+def test_a_search_without_a_stable_orbit_leaves_the_tables_empty():
+    """In chaos there is no stable orbit."""
+    section = read_config("orbits")["orbits"]
+    settings = {**section, "limits": [79.0, 81.0], "model": MODEL}
+    del settings["seeds"]
+    tables = branches.make(settings)
+    assert {len(column) for table in tables.values() for column in table.values()} == {0}
+
+
+def test_orbits_on_a_known_branch_start_no_new_branch(monkeypatch):
+    """The branch of the orbit of one cycle leads to the doubled branch, on which the other orbit lies."""
+    branch = namedtuple("Branch", "name orbits")
+    periods = {"double": 2, "once": 1, "apart": 2}
+    starts = [SimpleNamespace(name=name, period=period) for name, period in periods.items()]
+    found = {"once": ["once", "double"], "apart": ["apart"], "double": ["double"]}
+    monkeypatch.setattr(branches, "on_branch", lambda parameters, branch, orbit: branch.name == orbit.name)
+    monkeypatch.setattr(
+        branches,
+        "explore_bifurcations",
+        lambda parameters, seeds, *rest: [branch(one, [one]) for seed in seeds for one in found[seed.name]],
+    )
+    settings = {"limits": [20.0, 90.0], "max_period": 2}
+    assert [one.name for one in branches.explore_branches(None, starts, settings)] == ["once", "double", "apart"]
+
+
+def test_no_branch_is_followed_after_the_largest_number_of_orbits(monkeypatch):
+    monkeypatch.setattr(branches, "MOST_ORBITS", 1)
+    section = read_config("orbits")["orbits"]
+    settings = {**section, "limits": [38.0, 42.0], "max_period": 1, "model": MODEL}
+    tables = branches.make({key: value for key, value in settings.items() if key != "seeds"})
+    assert set(tables["branches"]["branch"]) == {0}

@@ -1,0 +1,164 @@
+# Where to run a conveyor: the attractors that initial conditions in a box reach, the transit of parts along a track, and what
+# follows for the operator.
+
+# If the config says so, the parameters of parts are drawn from the samples of the calibration, around their best values. The overlay
+# exists only if the model explains the measurements.
+IS_CALIBRATED = config["parts"].get("calibrated")
+CALIBRATED_PARTS = tables_of("calibration/samples", "calibration/parameters") if IS_CALIBRATED else {}
+CALIBRATED_OVERLAY = [result("calibrated.yaml")] if IS_CALIBRATED else []
+# Of the target `machine`, for any conveyor.
+MACHINE_FIGURES = listed_figures("operating", "basin_stability", "transit", "track")
+MACHINE_FILES = [result("operating/chart.md"), *figure_files(MACHINE_FIGURES), *caption_files(MACHINE_FIGURES)]
+
+
+rule operating:
+    """Share of initial conditions that reach each attractor, and regimes over the amplitude."""
+    output:
+        **tables_of("operating/shares", "operating/regimes"),
+    log:
+        log_file("operating/shares"),
+    benchmark:
+        benchmark_file("operating/shares")
+    threads: THREADS
+    params:
+        **stage("conveyor_pipeline.machine.operating.shares", "operating/shares"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule transit:
+    """Transit of parts along a track, over the amplitude."""
+    input:
+        CALIBRATED_OVERLAY,
+        **CALIBRATED_PARTS,
+    output:
+        **tables_of("operating/transit"),
+    log:
+        log_file("operating/transit"),
+    benchmark:
+        benchmark_file("operating/transit")
+    threads: THREADS
+    params:
+        **stage("conveyor_pipeline.machine.operating.transit", "operating/transit"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule drift:
+    """Drift and diffusion in chaos, and the spread of transit over the length of the track."""
+    input:
+        **tables_of("operating/regimes"),
+    output:
+        **tables_of("operating/drift", "operating/track_lengths"),
+    log:
+        log_file("operating/drift"),
+    benchmark:
+        benchmark_file("operating/drift")
+    threads: THREADS
+    params:
+        **stage("conveyor_pipeline.machine.operating.drift", "operating/drift"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule advice:
+    """Where to run the conveyor, and what helps there."""
+    input:
+        CALIBRATED_OVERLAY,
+        **CALIBRATED_PARTS,
+        **tables_of("operating/transit", "operating/shares"),
+    output:
+        **tables_of("operating/advice", "operating/changes"),
+    log:
+        log_file("operating/advice"),
+    benchmark:
+        benchmark_file("operating/advice")
+    threads: THREADS
+    params:
+        **stage("conveyor_pipeline.machine.operating.advice", "operating/advice"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule throws:
+    """Motions of several conveyors over the throw number."""
+    input:
+        examples=[source(f"config/examples/{name}.yaml") for name in ("bowl", "linear", "trough")],
+    output:
+        **tables_of("operating/throws"),
+    log:
+        log_file("operating/throws"),
+    benchmark:
+        benchmark_file("operating/throws")
+    threads: THREADS
+    params:
+        **stage("conveyor_pipeline.machine.operating.throws", "operating/throws"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule track:
+    """Velocities over inclination and phase shift."""
+    output:
+        **tables_of("operating/track"),
+    log:
+        log_file("operating/track"),
+    benchmark:
+        benchmark_file("operating/track")
+    threads: THREADS
+    params:
+        **stage("conveyor_pipeline.machine.operating.track", "operating/track"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule operating_chart:
+    """The operating chart in words."""
+    input:
+        **tables_of(
+            "operating/transit", "operating/shares", "operating/regimes", "operating/advice", "operating/changes"
+        ),
+        template=source("workflow/templates/operating_chart.md"),
+    output:
+        chart=result("operating/chart.md"),
+    log:
+        log_file("operating/chart"),
+    benchmark:
+        benchmark_file("operating/chart")
+    params:
+        **stage("conveyor_pipeline.machine.operating.chart"),
+        assumed=ASSUMED_PARTS,
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule drive:
+    """Search for the settings of the drive."""
+    output:
+        **tables_of("operating/drive_front", "operating/drive_generations"),
+    log:
+        log_file("operating/drive_front"),
+    benchmark:
+        benchmark_file("operating/drive_front")
+    threads: THREADS
+    params:
+        **stage("conveyor_pipeline.machine.operating.drive", "operating/drive_front"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule drive_page:
+    """The recommended settings of the drive in words."""
+    input:
+        **tables_of("operating/drive_front", "operating/drive_generations"),
+        template=source("workflow/templates/drive.md"),
+    output:
+        page=result("drive.md"),
+    log:
+        log_file("operating/drive_page"),
+    benchmark:
+        benchmark_file("operating/drive_page")
+    params:
+        **stage("conveyor_pipeline.machine.operating.drive_page"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
