@@ -1,27 +1,18 @@
 import os
 import sys
-from itertools import accumulate
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 from snakemake.utils import min_version
 
-try:
-    from conveyor_pipeline.config import ConfigError, load_config
-    from conveyor_pipeline.config.files import DEFAULT_FILES, ROOT, USER_FILE
-except ImportError as error:
-    names = list(accumulate((error.name or "").split("."), "{}.{}".format))
-    if names[0] not in ("workflow", "scripts"):
-        raise
-    # Another workflow may have packages of these names; Python imports the first one that it finds.
-    folders = [folder for name in names if name in sys.modules for folder in getattr(sys.modules[name], "__path__", [])]
-    own = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).resolve()
-    if others := [folder for folder in folders if not Path(folder).resolve().is_relative_to(own)]:
-        raise WorkflowError(
-            f"The workflow of the conveyor imports its folders workflow/ and scripts/, but Python finds {others[-1]} instead; "
-            "rename that folder"
-        )
+# This folder comes first, so that no installed package and no package of another workflow takes the place of these.
+FOLDER = Path(workflow.current_basedir.get_path_or_uri(secret_free=True)).resolve()
+if not (FOLDER / "scripts/conveyor_pipeline").is_dir():
     raise WorkflowError('This Snakefile needs the files beside it; in a Git repository, name path="workflow/Snakefile"')
+sys.path.insert(0, str(FOLDER / "scripts"))
+
+from conveyor_pipeline.config import ConfigError, load_config
+from conveyor_pipeline.config.files import DEFAULT_FILES, ROOT, USER_FILE
 
 min_version("9.27")
 

@@ -18,8 +18,8 @@ import yaml
 
 from conveyor_pipeline.config import canonical
 from conveyor_pipeline.config.entries import ENTRIES
+from conveyor_pipeline.config.files import DEFAULT_FILES
 from conveyor_pipeline.config.files import merge as merged
-from conveyor_pipeline.config.stages import STAGES
 
 ROOT = Path(__file__).resolve().parents[1]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
@@ -34,7 +34,8 @@ TINY = {
     "sweeps": {"amplitudes": COARSE, "on_plate": {"axes": {"acceleration": {"num": 3}}}},
     "estimates": {"phase": COARSE_PAIRS},
 }
-CONFIG_FILES = ("model", *STAGES)  # of config/defaults
+# Default files below config/, without ".yaml": the model first.
+CONFIG_FILES = tuple(file.relative_to(ROOT / "config").with_suffix("").as_posix() for file in DEFAULT_FILES)
 
 
 def read_config(*files: str) -> dict:
@@ -54,8 +55,8 @@ def content_of(file: str) -> dict:
 
 
 def config_file(name: str) -> Path:
-    """The path of a file of config/defaults, or of an overlay in config/."""
-    return ROOT / f"config/{'defaults/' if name in CONFIG_FILES else ''}{name}.yaml"
+    """The path of a file below config/."""
+    return ROOT / f"config/{name}.yaml"
 
 
 def small_config() -> dict:
@@ -202,6 +203,6 @@ def copy_project(folder: Path) -> Path:
         else:
             shutil.copy2(source, folder / part, follow_symlinks=False)
     for file in CONFIG_FILES[1:]:
-        (folder / f"config/defaults/{file}.yaml").write_text("{}")
+        (folder / f"config/{file}.yaml").write_text("{}")
     (folder / "config/defaults/model.yaml").write_text(yaml.safe_dump(small_config(), sort_keys=False))
     return folder

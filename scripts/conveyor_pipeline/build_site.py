@@ -5,11 +5,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-# Snakemake puts this folder last on the path; an installed copy of the library would come first.
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+# Snakemake puts the folder of all packages last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from conveyor_pipeline.pages import site
 from conveyor_pipeline.common.rule_log import logged
+from conveyor_pipeline.pages import site
 
 if __name__ == "__main__":
     # Compiled functions have no signature for the documentation. Must be set before Sphinx imports the library.

@@ -5,12 +5,13 @@ import sys
 from collections.abc import Mapping
 from pathlib import Path
 
-# Snakemake puts this folder last on the path; an installed copy of the library would come first.
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+# Snakemake puts the folder of all packages last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from conveyor_pipeline.figures import style
 from conveyor_pipeline.common import tables
 from conveyor_pipeline.common.rule_log import logged
+from conveyor_pipeline.figures import style
+from conveyor_pipeline.figures.titles import package_of
 
 
 def draw(name: str, paths: Mapping[str, str], expected: Mapping[str, list], settings: dict) -> style.Figure:
@@ -24,10 +25,10 @@ def draw(name: str, paths: Mapping[str, str], expected: Mapping[str, list], sett
 
     Raises
     ------
-    pipeline.tables.TableError
+    conveyor_pipeline.common.tables.TableError
         names a file that is not the expected table, and the remedy
     """
-    plot = importlib.import_module(f"figures.plots.{name}").plot
+    plot = importlib.import_module(f"{package_of(name)}.{name}").plot
     with style.applied():
         return plot(**{role: tables.read(path, *expected[path]) for role, path in paths.items()}, **settings)
 

@@ -4,8 +4,8 @@ import sys
 from functools import partial
 from pathlib import Path
 
-# Snakemake puts this folder last on the path; an installed copy of the library would come first.
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+# Snakemake puts the folder of all packages last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from conveyor_pipeline.common import grid, tables
 from conveyor_pipeline.common.rule_log import logged

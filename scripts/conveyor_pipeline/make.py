@@ -19,8 +19,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-# Snakemake puts this folder last on the path; an installed copy of the library would come first.
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+# Snakemake puts the folder of all packages last on the path; an installed copy of the library would come first.
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from conveyor_pipeline.common import csv_table, fields, tables
 from conveyor_pipeline.common.rule_log import COMPILED, logged

@@ -12,8 +12,8 @@ from project import ROOT, read_config
 from prose import typed
 
 from conveyor_pipeline.figures import captions
+from conveyor_pipeline.figures.titles import caption_file, split_title, title_of
 from conveyor_pipeline.paper.caption_numbers import bifurcation
-from conveyor_pipeline.figures.titles import split_title, title_of
 from conveyor_pipeline.paper.sensitivity.changes import UNEVEN
 
 CONFIG = read_config()
@@ -22,7 +22,7 @@ FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
 
 def template_of(name: str) -> str:
     """The template of a caption, without the title."""
-    return split_title((ROOT / f"scripts/figures/plots/{name}.rst").read_text(encoding="utf-8"))[1]
+    return split_title(caption_file(name).read_text(encoding="utf-8"))[1]
 
 
 def caption(name: str, settings: dict | None = None, *, paper: bool = True, **tables: pd.DataFrame) -> str:

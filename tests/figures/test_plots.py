@@ -9,12 +9,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from conveyor_pipeline.study.accuracy import precision, speed
 from conveyor.solver.status import EVENT_LOST, GAVE_UP, NOT_FINITE, OK, STATUS, STEP_TOO_SMALL, STUCK
 from conveyor_pipeline.figures import style
-from conveyor_pipeline.study.caption_numbers.work_precision import numbers
 from conveyor_pipeline.machine.figures import calibration, drive, transit
 from conveyor_pipeline.paper.figures import fig08, fig15
+from conveyor_pipeline.study.accuracy import precision, speed
+from conveyor_pipeline.study.caption_numbers.work_precision import numbers
 from conveyor_pipeline.study.figures import work_precision
 
 

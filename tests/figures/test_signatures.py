@@ -1,15 +1,16 @@
 """The arguments that the config gives to plots and captions are the arguments in their signatures."""
 
-import importlib.util
+import importlib
 import inspect
 
 import pytest
 from jinja2.meta import find_undeclared_variables
-from project import ROOT, read_config
+from project import read_config
 
 from conveyor.methods import fixed_step, scheme
-from conveyor_pipeline.figures import style
 from conveyor_pipeline.common.templates import ENVIRONMENT
+from conveyor_pipeline.figures import style
+from conveyor_pipeline.figures.titles import caption_file, package_of
 
 CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
@@ -22,7 +23,7 @@ def names(entry, keys=("tables", "settings")):
 @pytest.mark.parametrize("figure", FIGURES)
 def test_a_plot_takes_the_tables_and_settings_of_its_figure(figure):
     entry = FIGURES[figure]
-    plot = importlib.import_module(f"figures.plots.{figure}").plot
+    plot = importlib.import_module(f"{package_of(figure)}.{figure}").plot
     given = names(entry, ("tables", "settings", "marks"))
     assert len(given) == len(set(given)), "a table and a setting share a name"
     inspect.signature(plot).bind(**dict.fromkeys(given))
@@ -31,21 +32,19 @@ def test_a_plot_takes_the_tables_and_settings_of_its_figure(figure):
 @pytest.mark.parametrize("figure", FIGURES)
 def test_a_plot_works_without_the_papers_marks(figure):
     """Figures of other conveyors have none."""
-    plot = importlib.import_module(f"figures.plots.{figure}").plot
+    plot = importlib.import_module(f"{package_of(figure)}.{figure}").plot
     inspect.signature(plot).bind(**dict.fromkeys(names(FIGURES[figure])))
 
 
 @pytest.mark.parametrize("figure", FIGURES)
 def test_the_values_of_a_caption_exist(figure):
-    wanted = find_undeclared_variables(
-        ENVIRONMENT.parse((ROOT / f"scripts/figures/plots/{figure}.rst").read_text(encoding="utf-8"))
-    )
+    wanted = find_undeclared_variables(ENVIRONMENT.parse(caption_file(figure).read_text(encoding="utf-8")))
     given = names(FIGURES[figure], ("tables", "caption_tables", "settings"))
-    module = f"figures.caption_numbers.{figure}"
-    if not importlib.util.find_spec(module):
+    package = package_of(figure, "caption_numbers")
+    if not package:
         assert wanted <= {"conveyor", "slides", *given}, "the caption needs a module in caption_numbers"
         return
-    parameters = inspect.signature(importlib.import_module(module).numbers).parameters
+    parameters = inspect.signature(importlib.import_module(f"{package}.{figure}").numbers).parameters
     assert {name for name, one in parameters.items() if one.default is one.empty} <= set(given)
     # A table that only the caption has is used by its function or its text.
     assert set(FIGURES[figure].get("caption_tables", {})) <= {*parameters, *wanted}

@@ -13,17 +13,17 @@ sys.path[:0] = [str(ROOT), str(ROOT / "scripts"), str(ROOT / "tests"), str(ROOT 
 
 import pandas as pd  # noqa: E402
 from project import si_config  # noqa: E402
+from test_inference import SETTINGS, measured  # noqa: E402
 
 import conveyor  # noqa: E402
-from conveyor_pipeline.machine.calibration.calibrate import calibrate  # noqa: E402
 from conveyor.certificates.balls import exactly, precision  # noqa: E402
 from conveyor.certificates.law import Accuracy, law_of  # noqa: E402
 from conveyor.certificates.orbit import prove_orbit  # noqa: E402
 from conveyor.certificates.shooting import Shooting  # noqa: E402
-from conveyor_pipeline.machine.operating import drive  # noqa: E402
 from conveyor_pipeline.common import grid  # noqa: E402
-from test_inference import SETTINGS, measured  # noqa: E402
 from conveyor_pipeline.config.tables import TABLES  # noqa: E402
+from conveyor_pipeline.machine.calibration.calibrate import calibrate  # noqa: E402
+from conveyor_pipeline.machine.operating import drive  # noqa: E402
 
 CONFIG = si_config()
 

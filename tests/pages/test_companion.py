@@ -21,10 +21,10 @@ from conveyor.analysis.attractors import labels
 from conveyor.simulation import Run, simulate
 from conveyor.solver import model
 from conveyor.solver.model import Conveyor, Start
-from conveyor_pipeline.pages.companion import build
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.config.entries import resolve
+from conveyor_pipeline.pages.companion import build
 
 ROOT = Path(__file__).resolve().parents[2]
 CONFIG = read_config()

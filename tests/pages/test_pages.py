@@ -10,10 +10,10 @@ from jinja2 import UndefinedError
 from project import ROOT, read_config
 from prose import typed
 
-from conveyor_pipeline.paper.claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED, describe_claims
+from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.pages import article, facts, pages, site
 from conveyor_pipeline.pages.config_keys import parse_file
-from conveyor_pipeline.common.templates import render
+from conveyor_pipeline.paper.claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED, describe_claims
 
 TEMPLATES = ROOT / "workflow/templates"
 FRAME = (TEMPLATES / "article.typ").read_text(encoding="utf-8")
@@ -26,7 +26,7 @@ PROSE = [
 ]
 KEPT = ("README.md", "metadata.yaml", "codecheck.yml")
 FIGURES = read_config()["figures"]
-CONFIG = [str(file) for file in sorted((ROOT / "config/defaults").glob("*.yaml"))]
+CONFIG = [str(file) for file in sorted((ROOT / "config/defaults").rglob("*.yaml"))]
 
 # -- no result is typed ------------------------------------------------------------------------------------------------
 

@@ -2,10 +2,11 @@
 
 import re
 
-from project import ROOT, STAGES, si_config
+from project import ROOT, si_config
 
-from conveyor_pipeline.pages import tables_page
+from conveyor_pipeline.config.stages import STAGES
 from conveyor_pipeline.config.tables import kind_of, references
+from conveyor_pipeline.pages import tables_page
 
 SCRIPTS = ROOT / "scripts"
 

@@ -2,9 +2,9 @@
 
 import pytest
 
-from made import RESULTS
 from conveyor_pipeline.common import tables
 from conveyor_pipeline.config.tables import kind_of
+from made import RESULTS
 
 
 @pytest.fixture(scope="session")

@@ -19,4 +19,5 @@ def entries() -> dict[str, dict]:
     """The entries of the figures by their names."""
     if "CONVEYOR_FIGURES" in os.environ:
         return json.loads(os.environ["CONVEYOR_FIGURES"])
-    return yaml.safe_load((ROOT / "config/defaults/figures.yaml").read_text(encoding="utf-8"))["figures"]
+    files = sorted((ROOT / "config/defaults").glob("*/figures.yaml"))
+    return {name: entry for file in files for name, entry in yaml.safe_load(file.read_text())["figures"].items()}

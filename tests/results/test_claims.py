@@ -5,9 +5,9 @@ import re
 import numpy as np
 import pytest
 
+from conveyor_pipeline.paper.claims.settings import CLAIMS
 from conveyor_pipeline.paper.claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED
 from made import RESULTS, ROOT
-from conveyor_pipeline.paper.claims.settings import CLAIMS
 
 PAGE = ROOT / "docs/claims.md"
 # Claims whose tables are the same on coarse axes.

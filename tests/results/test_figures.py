@@ -9,10 +9,10 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from conveyor_pipeline.config.tables import kind_of
 from conveyor_pipeline.draw import draw
 from conveyor_pipeline.figures import style
 from made import FIGURES, RESULTS, ROOT, entries
-from conveyor_pipeline.config.tables import kind_of
 
 ENTRIES = entries()
 MAPS = ("fig12", "fig13", "fig14", "fig18", "fig19")

@@ -12,8 +12,8 @@ import pytest
 from browser import chromium
 from project import ROOT, read_config
 
-from conveyor_pipeline.pages import article
 from conveyor_pipeline.figures.titles import title_of
+from conveyor_pipeline.pages import article
 
 RESULTS = ROOT / os.environ.get("CONVEYOR_RESULTS", "results")
 SITE = RESULTS / "site"

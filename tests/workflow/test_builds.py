@@ -13,7 +13,7 @@ from conveyor_pipeline.common.provenance import MAY_DIFFER
 
 # The fastest of the figures that are drawn from measured times.
 TIMED = {
-    "figures": {"scene_budget": read_config("figures")["figures"]["scene_budget"]},
+    "figures": {"scene_budget": read_config()["figures"]["scene_budget"]},
     "scene_budget": {"effort": 0.01},
 }
 MANIFEST, PROVENANCE = "results/manifest.sha256", "results/provenance.json"

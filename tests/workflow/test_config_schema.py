@@ -8,8 +8,8 @@ import yaml
 from jsonschema import Draft202012Validator
 from project import CONFIG_FILES, ROOT, config_file, read_config
 
-from conveyor_pipeline.pages.config_keys import list_keys, parse_file
 from conveyor_pipeline.config.schema import full_schema, json_schema, options_of, schema_at, unit_of
+from conveyor_pipeline.pages.config_keys import list_keys, parse_file
 
 SCHEMA = json.loads(json_schema())
 FILES = [config_file(name) for name in (*CONFIG_FILES, "config", "reduced")]

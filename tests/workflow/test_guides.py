@@ -146,7 +146,9 @@ def test_the_other_snakefile_plans_the_same(built):
 
 def test_breakpoint_works_in_a_job(edited):
     """As the guide says: the job keeps the terminal of Snakemake."""
-    project = edited("scripts/conveyor_pipeline/paper/figures/fig03.py", "    figure = ", "    breakpoint()\n    figure = ")
+    project = edited(
+        "scripts/conveyor_pipeline/paper/figures/fig03.py", "    figure = ", "    breakpoint()\n    figure = "
+    )
     target = ("--cores", "1", "--force", "figures/fig03.png", *project.configfile())
     run = project.given_to(subprocess.run, *target, input="p 40 + 2\nc\n")
     assert run.returncode == 0, run.stdout

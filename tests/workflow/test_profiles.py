@@ -32,7 +32,9 @@ def run(project, *arguments, path):
 def test_slurm_gets_the_jobs(edited, tmp_path):
     """A dry run would hide an invalid profile, so a scheduler that refuses every job gets the first ones."""
     pytest.importorskip("snakemake_executor_plugin_slurm")
-    project = edited("scripts/conveyor_pipeline/paper/orbits/estimates.py", "import numpy as np\n", "import numpy as np  # changed\n")
+    project = edited(
+        "scripts/conveyor_pipeline/paper/orbits/estimates.py", "import numpy as np\n", "import numpy as np  # changed\n"
+    )
     calls, commands = tmp_path / "calls", tmp_path / "commands"
     commands.mkdir()
     for command in ("sbatch", "squeue", "sinfo", "sacct"):

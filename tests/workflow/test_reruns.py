@@ -11,7 +11,11 @@ REMARK = ("import numpy as np\n", "import numpy as np  # changed\n")
 
 
 def test_nothing_after_a_touch(built):
-    for file in ("scripts/conveyor_pipeline/paper/sweeps/shards.py", "scripts/conveyor/solver/contact.py", "scripts/conveyor_pipeline/paper/figures/fig22.py"):
+    for file in (
+        "scripts/conveyor_pipeline/paper/sweeps/shards.py",
+        "scripts/conveyor/solver/contact.py",
+        "scripts/conveyor_pipeline/paper/figures/fig22.py",
+    ):
         os.utime(built.folder / file)
     assert built.planned(*TARGETS, "figures/fig22.png", "docs/companion.html") == {}
 
@@ -39,7 +43,11 @@ def test_no_labels_after_the_pairs_of_trajectories(edited):
 @pytest.mark.parametrize(
     ("file", "old", "new"),
     [
-        ("scripts/conveyor_pipeline/pages/companion/solver.js", "const CYCLE_STEP = 1 / 1000;", "const CYCLE_STEP = 1 / 500;"),
+        (
+            "scripts/conveyor_pipeline/pages/companion/solver.js",
+            "const CYCLE_STEP = 1 / 1000;",
+            "const CYCLE_STEP = 1 / 500;",
+        ),
         ("scripts/conveyor_pipeline/figures/style.py", '"#0072B2"', '"#123456"'),
     ],
 )

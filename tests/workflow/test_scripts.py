@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 from project import ROOT
 
-import conveyor_pipeline.make
+from conveyor_pipeline import make
 from conveyor_pipeline.common import fields
 
 SCRIPTS = ROOT / "scripts"

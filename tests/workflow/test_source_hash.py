@@ -132,7 +132,9 @@ def test_a_patch_of_python_reruns_nothing():
 
 def test_every_package_behind_a_number_or_a_picture_counts():
     """They are found from imports, without a list: pandas, and indirectly llvmlite and pillow."""
-    _, packages = source_hash.closure("draw", "figures/plots/fig22", "fit/regressions", "sweeps/shards")
+    _, packages = source_hash.closure(
+        DRAW, f"{PAPER}/figures/fig22", f"{PAPER}/fit/regressions", f"{PAPER}/sweeps/shards"
+    )
     names = {one.split("==")[0] for one in source_hash.versions(packages)}
     assert {
         "python",
@@ -176,7 +178,7 @@ def test_an_analysis_reruns_only_what_uses_it(module, users):
 
 def test_plots_depend_on_no_solver():
     for figure in ("fig03", "fig22"):
-        assert modules("draw", f"figures/plots/{figure}") == {
+        assert modules(DRAW, f"{PAPER}/figures/{figure}") == {
             "draw.py",
             "pipeline/rule_log.py",
             "pipeline/tables.py",

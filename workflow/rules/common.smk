@@ -3,7 +3,7 @@ import os
 import re
 import signal
 
-from conveyor_pipeline.figures.titles import title_of
+from conveyor_pipeline.figures.titles import caption_file, package_of, title_of
 from conveyor_pipeline.common.source_hash import source_hash
 from conveyor_pipeline.config.entries import ENTRIES, MEASURED_FILES, count_points, count_shards
 from conveyor_pipeline.config.files import DEFAULT_FILES, ROOT
@@ -121,7 +121,7 @@ def stage(module, reference=None, scripts=lambda wildcards: ()):
     """
 
     def code(wildcards):
-        return source_hash("make", module.format(**wildcards).replace(".", "/"), *scripts(wildcards))
+        return source_hash("conveyor_pipeline/make", module.format(**wildcards).replace(".", "/"), *scripts(wildcards))
 
     # Not a function of the output: Snakemake does not rerun jobs after a change of params that depend on inputs or outputs.
     def settings(wildcards):
@@ -239,9 +239,15 @@ def settings_of_figure(figure):
     return entry.get("settings", {}) | (entry.get("marks", {}) if IS_PAPER else {})
 
 
+def figure_modules(figure, part="figures"):
+    """The module of a figure, as a list of its path below scripts/ without ".py"; an empty list if there is none."""
+    package = package_of(figure, part)
+    return [f"{package.replace('.', '/')}/{figure}"] if package else []
+
+
 def caption_scripts(wildcards):
     """The script that computes numbers of a caption, if there is one."""
-    return modules(f"figures/caption_numbers/{wildcards.figure}")
+    return figure_modules(wildcards.figure, "caption_numbers")
 
 
 def tables_of_figure(wildcards):

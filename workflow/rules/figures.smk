@@ -19,7 +19,7 @@ rule plot:
     params:
         settings=lambda wildcards: settings_of_figure(wildcards.figure),
         expected=expected,
-        code=lambda wildcards: source_hash("draw", f"figures/plots/{wildcards.figure}"),
+        code=lambda wildcards: source_hash("conveyor_pipeline/draw", *figure_modules(wildcards.figure)),
     script:
         "../../scripts/conveyor_pipeline/draw.py"
 
@@ -35,7 +35,7 @@ rule caption:
             labels=labels_in_report,
         ),
         unpack(tables_of_caption),
-        template=source("scripts/figures/plots/{figure}.rst"),
+        template=lambda wildcards: source(caption_file(wildcards.figure)),
     output:
         caption=result("captions/{figure}.rst"),
     log:

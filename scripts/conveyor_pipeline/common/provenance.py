@@ -19,7 +19,7 @@ import pandas as pd
 
 from conveyor_pipeline.common.rule_log import COMPILED
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 UNKNOWN = "unknown"
 HEAD = """\
 # Results and figures with their SHA-256: equal on any number of cores, in any folder, time zone and locale.

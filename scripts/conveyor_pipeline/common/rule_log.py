@@ -8,7 +8,7 @@ from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import TextIO
 
-SCRIPTS = Path(__file__).resolve().parents[1]  # the folder whose code the rules hash
+SCRIPTS = Path(__file__).resolve().parents[2]  # the folder whose code the rules hash
 COMPILED = "Time to compile: "  # a line in the log of a job that compiled functions
 
 

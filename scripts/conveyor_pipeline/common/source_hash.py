@@ -15,7 +15,7 @@ from conveyor_pipeline.common.imports import all_imports
 
 # Without its last number: such versions only mend faults.
 PYTHON = f"{sys.version_info.major}.{sys.version_info.minor}"
-SCRIPTS = Path(__file__).resolve().parents[1]
+SCRIPTS = Path(__file__).resolve().parents[2]
 # Distributions whose version matters although no source imports them.
 BEHIND = {"numba": ("llvmlite",), "matplotlib": ("pillow",)}
 

@@ -7,17 +7,31 @@ from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 
-from conveyor_pipeline.machine.calibration import measurements
 from conveyor import RANGES
-from conveyor_pipeline.machine.excitation.limits import STATEMENT
 from conveyor_pipeline.common import csv_table
-
-from conveyor_pipeline.config.entries import ENTRIES, FIGURES, MEASURED_FILES, METHOD_SECTIONS, by_methods, count_points, count_shards, count_values, ends, fill_defaults, resolve, values_of, variants
+from conveyor_pipeline.config.entries import (
+    ENTRIES,
+    FIGURES,
+    MEASURED_FILES,
+    METHOD_SECTIONS,
+    by_methods,
+    count_points,
+    count_shards,
+    count_values,
+    ends,
+    fill_defaults,
+    resolve,
+    values_of,
+    variants,
+)
 from conveyor_pipeline.config.errors import suggest_name, type_problems
-from conveyor_pipeline.config.files import DEFAULT_FILES, ROOT, merge, read_all
+from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
 from conveyor_pipeline.config.model import MODEL, is_same_model
 from conveyor_pipeline.config.scales import faults_of_scales, to_si
 from conveyor_pipeline.config.tables import NAMED, TABLES, entry_of, references, references_of
+from conveyor_pipeline.figures.titles import caption_file, package_of
+from conveyor_pipeline.machine.calibration import measurements
+from conveyor_pipeline.machine.excitation.limits import STATEMENT
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
 RESERVED = {*NAMED, *(table.split("/")[0] for table in TABLES), "article", "benchmarks", "captions"}
@@ -227,9 +241,9 @@ def figures(config: dict, defaults: dict) -> Iterator[str]:
     tables = by_methods(config)
     for section in FIGURES:
         for figure, entry in config[section].items():
-            for file in (f"scripts/figures/plots/{figure}.py", f"scripts/figures/plots/{figure}.rst"):
-                if not (ROOT / file).is_file():
-                    yield f"{section}.{figure} has no {file}; a figure needs a plot script and a caption of its name"
+            if not (package_of(figure) and caption_file(figure)):
+                files = f"scripts/conveyor_pipeline/FLOOR/figures/{figure}.py and {figure}.rst"
+                yield f"{section}.{figure} has no files {files}; a figure needs a plot script and a caption of its name"
             for reference in entry["tables"].values():
                 if entry["needs"] == "feeding" and entry_of(tables, reference).get("needs") == "vertical":
                     yield f"{section}.{figure} needs feeding, but {reference} has needs: vertical; remove it there"

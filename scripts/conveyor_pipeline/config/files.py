@@ -14,10 +14,15 @@ from ruamel.yaml.nodes import MappingNode, Node, SequenceNode
 from snakemake.utils import update_config
 
 from conveyor_pipeline.config.errors import ConfigError, format_key
-from conveyor_pipeline.config.stages import STAGES
+from conveyor_pipeline.config.stages import FLOORS
 
-ROOT = Path(__file__).resolve().parents[2]
-DEFAULT_FILES = tuple(ROOT / f"config/defaults/{name}.yaml" for name in ("model", *STAGES))
+ROOT = Path(__file__).resolve().parents[3]
+DEFAULTS = ROOT / "config/defaults"
+# The model first, then the floors in their order. Each floor has its own figures.
+DEFAULT_FILES = (
+    DEFAULTS / "model.yaml",
+    *(file for floor in (*FLOORS, "pages") for file in sorted((DEFAULTS / floor).glob("*.yaml"))),
+)
 USER_FILE = ROOT / "config/config.yaml"  # an overlay of the defaults, below the files of --configfile
 
 

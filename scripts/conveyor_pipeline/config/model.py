@@ -3,8 +3,19 @@
 from pydantic import ConfigDict, TypeAdapter
 from typing_extensions import TypedDict
 
-from conveyor_pipeline.common.settings import LONGEST_NAME, MODEL_KEYS, NAME, Duration, Method, Step, Tolerance, described, mapping, text, whole
-
+from conveyor_pipeline.common.settings import (
+    LONGEST_NAME,
+    MODEL_KEYS,
+    NAME,
+    Duration,
+    Method,
+    Step,
+    Tolerance,
+    described,
+    mapping,
+    text,
+    whole,
+)
 from conveyor_pipeline.config.stages import declared
 
 

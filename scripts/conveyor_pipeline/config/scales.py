@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from typing import Any
 
 from conveyor import normal_gravity
-
 from conveyor_pipeline.config.files import merge
 from conveyor_pipeline.config.schema import child, schema_at, unit_of
 

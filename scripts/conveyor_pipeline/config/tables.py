@@ -7,12 +7,11 @@ settings only as long as it has its own records, which a copy of the results doe
 
 import itertools
 
-from conveyor_pipeline.study.accuracy.scenes import SCENES
-from conveyor_pipeline.study.accuracy.settings import BUDGETED, precision_settings
 from conveyor_pipeline.common.table_settings import model_of
-
 from conveyor_pipeline.config.entries import ENTRIES, TIGHTER, resolve
 from conveyor_pipeline.config.stages import declared
+from conveyor_pipeline.study.accuracy.scenes import SCENES
+from conveyor_pipeline.study.accuracy.settings import BUDGETED, precision_settings
 
 # Tables that are not entries, and the function that returns the settings of each. A table that is missing here depends
 # on the model and, if there is one, on the section of its name.

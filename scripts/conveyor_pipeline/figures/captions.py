@@ -5,14 +5,14 @@ conveyors do not get. Fields are the tables and settings of the figure, and the 
 computes, if there is such a module.
 """
 
-import importlib.util
+import importlib
 import inspect
 
 import pandas as pd
 
-from conveyor_pipeline.figures.titles import split_title
-from conveyor_pipeline.machine.operating.regimes import is_steep
 from conveyor_pipeline.common.templates import name_harmonics, render
+from conveyor_pipeline.figures.titles import caption_file, package_of, split_title
+from conveyor_pipeline.machine.operating.regimes import is_steep
 
 
 def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings: dict, paper: bool = True) -> str:
@@ -27,8 +27,8 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
     """
     values = {**tables, **settings}
     numbers = {}
-    if importlib.util.find_spec(module := f"figures.caption_numbers.{name}"):
-        function = importlib.import_module(module).numbers
+    if package := package_of(name, "caption_numbers"):
+        function = importlib.import_module(f"{package}.{name}").numbers
         parameters = inspect.signature(function).parameters
         numbers = function(**{name: values[name] for name in parameters if name in values})
     template, _, remark = template.partition("\n\n")
@@ -40,7 +40,7 @@ def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings:
     try:
         text = render(template, values | numbers | about)
     except Exception as error:
-        error.add_note(f"in scripts/figures/plots/{name}.rst")
+        error.add_note(f"in {caption_file(name)}")
         raise
     # Tables of the motion normal to the track have models without friction.
     for harmonics in sorted({name_harmonics(table.attrs.get("model", {})) for table in tables.values()} - {""}):

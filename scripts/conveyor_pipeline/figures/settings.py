@@ -5,7 +5,18 @@ from typing import Annotated, NotRequired
 from pydantic import AfterValidator, Strict
 from typing_extensions import TypedDict
 
-from conveyor_pipeline.common.settings import Acceleration, HeightNumber, Line, Period, Reference, described, entries, interval, number, word
+from conveyor_pipeline.common.settings import (
+    Acceleration,
+    HeightNumber,
+    Line,
+    Period,
+    Reference,
+    described,
+    entries,
+    interval,
+    number,
+    word,
+)
 
 # [amplitude, initial height]
 Portrait = Annotated[tuple[Acceleration, HeightNumber], Strict(False), AfterValidator(list)]

@@ -4,8 +4,8 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
 import pandas as pd
 
-from conveyor_pipeline.paper.claims.about_proofs import stable_motions
 from conveyor_pipeline.common.templates import render
+from conveyor_pipeline.paper.claims.about_proofs import stable_motions
 
 
 def interval(low: float, high: float) -> str:

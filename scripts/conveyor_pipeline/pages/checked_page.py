@@ -3,8 +3,8 @@
 import pandas as pd
 from scipy.stats import binomtest
 
-from conveyor_pipeline.study.accuracy.map_check import ACCEPTED, CLOSE, CYCLES, REPEATS, SIGNIFICANT, TOLERANCE
 from conveyor_pipeline.common.templates import render
+from conveyor_pipeline.study.accuracy.map_check import ACCEPTED, CLOSE, CYCLES, REPEATS, SIGNIFICANT, TOLERANCE
 
 ROUNDING = 1e-13  # smaller differences are rounding errors
 CONFIDENCE = 0.95  # of the limit of the share of different labels

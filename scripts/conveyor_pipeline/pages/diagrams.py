@@ -6,8 +6,8 @@ import numpy as np
 from PIL import Image
 
 from conveyor import Conveyor, Run, Start, conveyor_motion, simulate
-from conveyor_pipeline.pages import pictures
 from conveyor_pipeline.figures import style
+from conveyor_pipeline.pages import pictures
 
 JUMPING = Start(z=3e-4)
 

@@ -17,18 +17,18 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from conveyor_pipeline.study.accuracy.scenes import SCENES
-from conveyor_pipeline.study.accuracy.speed import at_default
-from conveyor_pipeline.paper.claims.about_proofs import lowest_fold, stable_motions
-from conveyor_pipeline.paper.claims.about_states import flat_part
-from conveyor_pipeline.paper.claims.verdicts import VERDICTS, describe_claims
 from conveyor import MAX_PERIOD
 from conveyor_pipeline.machine.excitation import clean_drive
-from conveyor_pipeline.paper.caption_numbers import fig10, moved_impacts
-from conveyor_pipeline.paper.caption_numbers.bifurcation import accumulation
 from conveyor_pipeline.machine.operating.parts import POPULATIONS, differences
 from conveyor_pipeline.machine.operating.regimes import SEVERAL
 from conveyor_pipeline.machine.operating.transit import ENDS
+from conveyor_pipeline.paper.caption_numbers import fig10, moved_impacts
+from conveyor_pipeline.paper.caption_numbers.bifurcation import accumulation
+from conveyor_pipeline.paper.claims.about_proofs import lowest_fold, stable_motions
+from conveyor_pipeline.paper.claims.about_states import flat_part
+from conveyor_pipeline.paper.claims.verdicts import VERDICTS, describe_claims
+from conveyor_pipeline.study.accuracy.scenes import SCENES
+from conveyor_pipeline.study.accuracy.speed import at_default
 
 
 def margin(value: float, low: float, high: float) -> float:

@@ -21,9 +21,9 @@ import json
 import re
 from collections.abc import Callable
 
+from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.pages.config_keys import FileKey, Key, list_keys, parse_file
 from conveyor_pipeline.pages.facts import describe_interval, margin
-from conveyor_pipeline.common.templates import render
 
 # Markup of a subscript for pandoc and for Sphinx; captions are reStructuredText.
 SUBSCRIPTS = {"print": r"~\1~", "site": r"{sub}`\1`"}

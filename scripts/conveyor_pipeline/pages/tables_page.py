@@ -12,14 +12,11 @@ from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.config.stages import STAGES
 from conveyor_pipeline.config.tables import NAMED, TABLES
 
-WITHOUT_TABLES = ("figures", "docs")
 
-
-def modules_of(stage: str) -> list[ModuleType]:
+def modules_of(package: str) -> list[ModuleType]:
     """The modules of a stage that make tables, in the order of their names."""
-    names = [module.name for module in pkgutil.iter_modules(importlib.import_module(stage).__path__)]
-    # Settings are modules of the workflow, and have other relative imports.
-    modules = [importlib.import_module(f"{stage}.{name}") for name in names if name != "settings"]
+    names = [module.name for module in pkgutil.iter_modules(importlib.import_module(package).__path__)]
+    modules = [importlib.import_module(f"{package}.{name}") for name in names]
     return [module for module in modules if hasattr(module, "TABLES")]
 
 
@@ -51,11 +48,10 @@ def make(template: str) -> str:
                 "file": file_of(kind, module.TABLES, stage),
                 "columns": [describe(column) for column in schema],
             }
-            for module in modules_of(stage)
+            for module in modules_of(package)
             for kind, schema in module.TABLES.items()
         ]
-        for stage in STAGES
-        if stage not in WITHOUT_TABLES
+        for stage, package in STAGES.items()
     }
     axes = [describe(column) for column in fields.AXES.values()]
     return render(template, {"stages": stages, "axes": axes})

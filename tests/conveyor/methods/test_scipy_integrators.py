@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from project import read_config
 
-from conveyor_pipeline.study.accuracy.scenes import SCENES
 from conveyor import simulate
 from conveyor.methods import modes, scipy_integrators
 from conveyor.methods.scipy_integrators import Failed, Leg, Trajectory
 from conveyor.packing import as_rows
 from conveyor.solver.status import EVENT_LOST, GAVE_UP, OK, STATUS, STUCK
 from conveyor_pipeline.common import grid
+from conveyor_pipeline.study.accuracy.scenes import SCENES
 
 CONFIG = read_config()
 

@@ -27,7 +27,7 @@ GIVEN = ("input", "output", "params", "wildcards", "threads", "resources", "log"
 
 def save_quickly(figure, paths):
     """Lay a figure out and write it in few pixels, and to an empty PDF file."""
-    style = importlib.import_module("figures.style")
+    style = importlib.import_module("conveyor_pipeline.figures.style")
     with style.applied():
         style.lay_out(figure)
         for path in paths:
@@ -49,7 +49,7 @@ class Executor(RealExecutor):
                     Path(file).parent.mkdir(parents=True, exist_ok=True)
                 Path(job.benchmark).write_text("s\tmax_rss\n0.0\t0.0\n")
                 if script.name == "draw.py" and "QUICK_FIGURES" in os.environ:
-                    importlib.import_module("figures.style").save = save_quickly
+                    importlib.import_module("conveyor_pipeline.figures.style").save = save_quickly
                 given = SimpleNamespace(
                     rule=job.rule.name, scriptdir=str(script.parent), **{name: getattr(job, name) for name in GIVEN}
                 )

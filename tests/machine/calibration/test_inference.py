@@ -8,16 +8,25 @@ import pandas as pd
 import pytest
 from project import ROOT, read_config
 
+from conveyor.parameters import RANGES
+from conveyor_pipeline.config.tables import settings_of
 from conveyor_pipeline.machine.calibration import model_check, page, prediction
 from conveyor_pipeline.machine.calibration.calibrate import calibrate, make
 from conveyor_pipeline.machine.calibration.importance_sampling import Sample
-from conveyor_pipeline.machine.calibration.inference import DETERMINED, NOT_CONVERGED, NOT_DETERMINED, OPEN, agree, data_of, search, summarize_parameters
+from conveyor_pipeline.machine.calibration.inference import (
+    DETERMINED,
+    NOT_CONVERGED,
+    NOT_DETERMINED,
+    OPEN,
+    agree,
+    data_of,
+    search,
+    summarize_parameters,
+)
 from conveyor_pipeline.machine.calibration.measurements import parse
 from conveyor_pipeline.machine.calibration.model_check import compare_alternatives
 from conveyor_pipeline.machine.calibration.search_space import bounds_of
 from conveyor_pipeline.machine.calibration.synthetic import csv_text, measure
-from conveyor.parameters import RANGES
-from conveyor_pipeline.config.tables import settings_of
 
 MODEL = {"frequency": 40.0, "angle": 0.3, "mass": 1e-3, "gravity": 9.81, "exponent": 1.5, "inclination": 0.0}
 MODEL |= {"phase_shift": 0.0}
@@ -61,7 +70,7 @@ def measured(factor=1.0, **undeclared):
 def two_searches():
     """Two searches are enough here: how many agree is tested with made-up samples."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("calibration.calibrate.search", partial(search, searches=(2, 2)))
+        patch.setattr("conveyor_pipeline.machine.calibration.calibrate.search", partial(search, searches=(2, 2)))
         yield
 
 

@@ -6,10 +6,17 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from conveyor_pipeline.machine.calibration.likelihood import OUTLIERS, conditions_of, is_known, log_densities, velocities, widths
+from conveyor import Conveyor, Start, simulate
+from conveyor_pipeline.machine.calibration.likelihood import (
+    OUTLIERS,
+    conditions_of,
+    is_known,
+    log_densities,
+    velocities,
+    widths,
+)
 from conveyor_pipeline.machine.calibration.measurements import Measurement
 from conveyor_pipeline.machine.calibration.search_space import bounds_of, values_at
-from conveyor import Conveyor, Start, simulate
 
 NOISE = 0.02
 BOX = {"height": [0.0, 5e-4], "vz0": [-0.2, 0.2], "psi0": [0.0, 2.0 * math.pi], "static_friction": 0.0}

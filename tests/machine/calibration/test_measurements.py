@@ -6,14 +6,14 @@ import pytest
 import yaml
 from project import call_snakemake
 
-import conveyor_pipeline.make
-from conveyor_pipeline.machine.calibration import measurements
-from conveyor_pipeline.machine.calibration.measurements import EXAMPLE, HEADER_UNITS, MOST_BYTES, first_comments, wanted
 from conveyor.parameters import RANGES
+from conveyor_pipeline import make
 from conveyor_pipeline.common import csv_table
 from conveyor_pipeline.common.csv_table import TableError
 from conveyor_pipeline.config import load_config
 from conveyor_pipeline.config.files import DEFAULT_FILES, merge
+from conveyor_pipeline.machine.calibration import measurements
+from conveyor_pipeline.machine.calibration.measurements import EXAMPLE, HEADER_UNITS, MOST_BYTES, first_comments, wanted
 
 MODEL = {"frequency": 60.0, "angle": 0.35, "mass": 2e-3, "gravity": 9.81, "inclination": 0.0}
 SETTINGS = {"parameters": ["friction", "damping", "stiffness"], "model": MODEL}

@@ -7,9 +7,9 @@ import pytest
 import yaml
 from project import ROOT
 
+from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.machine.calibration import overlay, page
 from conveyor_pipeline.machine.calibration.inference import DETERMINED, NOT_CONVERGED, NOT_DETERMINED, OPEN
-from conveyor_pipeline.common.rule_log import JobError
 
 SETTINGS = {
     "measurements": "mine.csv",

@@ -5,9 +5,16 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.signal import lfilter
 
-from conveyor_pipeline.machine.excitation.faults import checked
-from conveyor_pipeline.machine.excitation.reading import EXAMPLE, HEADER_UNITS, STANDARD_GRAVITY, Recording, parse, wanted
 from conveyor_pipeline.common import csv_table
+from conveyor_pipeline.machine.excitation.faults import checked
+from conveyor_pipeline.machine.excitation.reading import (
+    EXAMPLE,
+    HEADER_UNITS,
+    STANDARD_GRAVITY,
+    Recording,
+    parse,
+    wanted,
+)
 
 
 def table_of(text: str, settings: dict, path: str = "mine.csv") -> csv_table.Table:

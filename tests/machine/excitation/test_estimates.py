@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
 from accelerometer import Drive, read
+
 from conveyor_pipeline.machine.excitation.estimates import SHARES, harmonics, noise_of, parameters, wrap
 from conveyor_pipeline.machine.excitation.harmonics import fit, orders_of, sampling_rate, strongest
 

@@ -6,12 +6,12 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from accelerometer import Drive, read
 from project import ROOT
 
-from accelerometer import Drive, read
+from conveyor_pipeline.common import tables
 from conveyor_pipeline.machine.excitation import measure, overlay, page, synthetic
 from conveyor_pipeline.machine.excitation.comparison import NO, PERHAPS, WITH, WITHOUT, YES, change, verdict
-from conveyor_pipeline.common import tables
 
 DRIVE = Drive(harmonics=((2, 0.05, 0.7, 0.08, -2.5), (3, 0.02, 3.0, 0.0, 0.0)), cycles=200.0, noise=0.1)
 

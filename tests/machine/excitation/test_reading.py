@@ -8,17 +8,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import yaml
+from accelerometer import Drive, check, read, table_of
 from project import ROOT
 
-import conveyor_pipeline.make
-from accelerometer import Drive, check, read, table_of
 from conveyor import HARMONIC
-from conveyor_pipeline.machine.excitation.faults import MOST_SHARE
-from conveyor_pipeline.machine.excitation.harmonics import first_fit
-from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY, parse
+from conveyor_pipeline import make
 from conveyor_pipeline.common.csv_table import TableError, read_text
 from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
+from conveyor_pipeline.machine.excitation.faults import MOST_SHARE
+from conveyor_pipeline.machine.excitation.harmonics import first_fit
+from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY, parse
 
 DRIVE = Drive(cycles=20.0)
 GOOD = DRIVE.text()

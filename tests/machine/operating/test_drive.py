@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 from project import ROOT, si_config
 
-from conveyor_pipeline.machine.operating import drive, drive_page, parts, transit
 from conveyor_pipeline.common import pareto
 from conveyor_pipeline.config.tables import TABLES
+from conveyor_pipeline.machine.operating import drive, drive_page, parts, transit
 
 SETTINGS = {**TABLES["operating/drive_front"](si_config()), "starts": 24, "longest": 2.0}
 TEMPLATE = (ROOT / "workflow/templates/drive.md").read_text()

@@ -10,10 +10,10 @@ import yaml
 from project import ROOT, si_config
 
 from conveyor import Columns, Conveyor, Start, classify, conveyor_motion, ensemble, parameter_table, simulate
-from conveyor_pipeline.machine.operating import advice, chart, parts, regimes, shares, throws, transit
 from conveyor_pipeline.common.labelling import label_entry
 from conveyor_pipeline.common.templates import format_range
 from conveyor_pipeline.config.tables import TABLES
+from conveyor_pipeline.machine.operating import advice, chart, parts, regimes, shares, throws, transit
 
 TEMPLATE = (ROOT / "workflow/templates/operating_chart.md").read_text()
 BOX = {

@@ -17,9 +17,9 @@ from conveyor import (
     parameter_table,
     simulate,
 )
-from conveyor_pipeline.machine.operating import drift, parts, regimes, transit
 from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.config.tables import TABLES
+from conveyor_pipeline.machine.operating import drift, parts, regimes, transit
 
 SETTINGS = TABLES["operating/transit"](si_config()) | {"starts": 24, "longest": 5.0}
 EQUAL = dict.fromkeys(parts.COLUMNS, 0.0) | {"seed": 2}

@@ -7,7 +7,7 @@ from project import read_config
 
 from conveyor_pipeline.paper.claims.verdicts import FINDINGS
 
-CLAIMS = read_config("claims")["claims"]
+CLAIMS = read_config()["claims"]
 
 
 @pytest.mark.parametrize("claim", CLAIMS)

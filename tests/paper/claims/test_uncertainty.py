@@ -7,11 +7,11 @@ import pandas as pd
 import pytest
 from project import merged, read_config
 
-from conveyor_pipeline.paper.claims import uncertainty
-from conveyor_pipeline.paper.claims.verdicts import REPRODUCED
 from conveyor_pipeline.config import canonical, problems
 from conveyor_pipeline.config.entries import by_methods, with_tighter
 from conveyor_pipeline.config.tables import tighter_claims
+from conveyor_pipeline.paper.claims import uncertainty
+from conveyor_pipeline.paper.claims.verdicts import REPRODUCED
 
 CONFIG = read_config()
 

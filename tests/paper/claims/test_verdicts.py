@@ -84,7 +84,7 @@ def test_a_missing_quantity_is_an_error():
         verdicts.verdict(Finding({}, {"a": 1.0}), quantities(a=[0.5, 1.5], b=[0.0, 1.0]))
 
 
-CLAIMS = read_config("claims")["claims"]
+CLAIMS = read_config()["claims"]
 
 
 def test_a_claim_names_its_finding_its_tables_and_its_settings():

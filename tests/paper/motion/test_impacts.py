@@ -3,9 +3,9 @@
 import numpy as np
 
 from conveyor.analysis.basins.first_impact import first_impacts, on_conveyor
-from conveyor_pipeline.paper.motion import impacts
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.labelling import label_entry
+from conveyor_pipeline.paper.motion import impacts
 
 SETTINGS = {
     "axes": {"acceleration": [40.0, 53.0], "z0": [-1.0e-3, 0.5e-4, 1.0e-4, 2.0e-4, 3.0e-4]},

@@ -5,8 +5,8 @@ import pytest
 
 from conveyor import Conveyor, Start, simulate
 from conveyor.solver.model import conveyor_motion
-from conveyor_pipeline.paper.motion import impacts, signals, spectra
 from conveyor_pipeline.common import fields, tables
+from conveyor_pipeline.paper.motion import impacts, signals, spectra
 
 MODEL = {"z0": 0.0, "vz0": 0.0}
 

@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 from project import read_config
 
-from conveyor_pipeline.paper.orbits import branches, exponents, seeds, strobes
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.rule_log import JobError
+from conveyor_pipeline.paper.orbits import branches, exponents, seeds, strobes
 
 MODEL = {
     "acceleration": 40.0,
@@ -71,7 +71,7 @@ def test_only_chaos_has_a_positive_exponent(tables):
 
 
 def test_limits_below_the_first_doubling_are_named():
-    section = read_config("orbits")["orbits"]
+    section = read_config()["orbits"]
     settings = {**section, "limits": [20.0, 45.0], "max_period": 1, "model": MODEL}
     with pytest.raises(JobError, match=r"up to 45\.\d+ m/s².*upper value of orbits\.limits"):
         branches.make(settings)
@@ -79,7 +79,7 @@ def test_limits_below_the_first_doubling_are_named():
 
 def test_seeds_are_found():
     """At 35 to 45 m/s² a part rides or jumps with the period of the excitation, and no cascade begins."""
-    section = read_config("orbits")["orbits"]
+    section = read_config()["orbits"]
     settings = {**section, "limits": [35.0, 45.0], "max_period": 1, "model": MODEL}
     del settings["seeds"]
     found = seeds.seeds(grid.row_of(settings["model"]), settings)
@@ -92,7 +92,7 @@ def test_seeds_are_found():
 
 def test_a_search_without_a_stable_orbit_leaves_the_tables_empty():
     """In chaos there is no stable orbit."""
-    section = read_config("orbits")["orbits"]
+    section = read_config()["orbits"]
     settings = {**section, "limits": [79.0, 81.0], "model": MODEL}
     del settings["seeds"]
     tables = branches.make(settings)
@@ -117,7 +117,7 @@ def test_orbits_on_a_known_branch_start_no_new_branch(monkeypatch):
 
 def test_no_branch_is_followed_after_the_largest_number_of_orbits(monkeypatch):
     monkeypatch.setattr(branches, "MOST_ORBITS", 1)
-    section = read_config("orbits")["orbits"]
+    section = read_config()["orbits"]
     settings = {**section, "limits": [38.0, 42.0], "max_period": 1, "model": MODEL}
     tables = branches.make({key: value for key, value in settings.items() if key != "seeds"})
     assert set(tables["branches"]["branch"]) == {0}

@@ -5,10 +5,10 @@ import pandas as pd
 import pytest
 from project import ROOT, read_config
 
-from conveyor_pipeline.study.accuracy import benchmark_page, precision, speed
-from conveyor_pipeline.study.accuracy.scenes import LONGEST, SCENES
 from conveyor.simulation import simulate
 from conveyor_pipeline.common import grid
+from conveyor_pipeline.study.accuracy import benchmark_page, precision, speed
+from conveyor_pipeline.study.accuracy.scenes import LONGEST, SCENES
 
 CONFIG = read_config()
 

@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from conveyor_pipeline.study.accuracy import map_check
 from conveyor import Conveyor, Start, classify, parameter_table
+from conveyor_pipeline.study.accuracy import map_check
 
 
 @pytest.fixture(autouse=True)

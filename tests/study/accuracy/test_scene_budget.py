@@ -3,8 +3,8 @@
 import pandas as pd
 import pytest
 
-from conveyor_pipeline.study.accuracy import scene_budget, theory
 from conveyor import Conveyor
+from conveyor_pipeline.study.accuracy import scene_budget, theory
 
 SETTINGS = {
     "axes": {"acceleration": [30.0, 40.0, 80.0], "z0": [1.0e-4, 3.0e-4]},

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from conveyor_pipeline.study.accuracy import closed_forms, stability
 from conveyor.solver.model import Conveyor
+from conveyor_pipeline.study.accuracy import closed_forms, stability
 
 MASS = Conveyor().mass
 

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 
-from conveyor_pipeline.study.accuracy import closed_forms, theory
 from conveyor import Conveyor
 from conveyor_pipeline.common.rule_log import JobError
+from conveyor_pipeline.study.accuracy import closed_forms, theory
 
 MODEL = {"frequency": 50.0, "angle": 0.2, "gravity": 9.81, "mass": 0.7e-3}
 

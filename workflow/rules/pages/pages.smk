@@ -53,7 +53,7 @@ SITE_TEMPLATES = [ARTICLE, *sources("workflow/templates/site/*.md")]
 SITE_PAGES = [result(f"site_pages/{Path(file).name}") for file in SITE_TEMPLATES]
 LIBRARY = modules("conveyor/**/*")
 # The reference of tables lists the columns of all modules with a mapping TABLES.
-STAGE_MODULES = [module for name in STAGES for module in modules(f"{name}/*")]
+STAGE_MODULES = [module for package in STAGES.values() for module in modules(f"{package.replace('.', '/')}/*")]
 
 
 rule page:
@@ -70,7 +70,10 @@ rule page:
     wildcard_constraints:
         page=one_of(PAGES),
     params:
-        **stage("conveyor_pipeline.pages.{page}_page", scripts=lambda wildcards: STAGE_MODULES if wildcards.page == "tables" else []),
+        **stage(
+            "conveyor_pipeline.pages.{page}_page",
+            scripts=lambda wildcards: STAGE_MODULES if wildcards.page == "tables" else [],
+        ),
     script:
         "../../../scripts/conveyor_pipeline/make.py"
 
@@ -78,7 +81,8 @@ rule page:
 rule companion:
     """The interactive page."""
     input:
-        sources("scripts/conveyor_pipeline/pages/companion/*.js*") + sources("scripts/conveyor_pipeline/pages/companion/page.*"),
+        sources("scripts/conveyor_pipeline/pages/companion/*.js*")
+        + sources("scripts/conveyor_pipeline/pages/companion/page.*"),
         maps=[table(f"sweeps/{name}") for name in config["companion"]["maps"]],
     output:
         f"{DOCS}companion.html",
@@ -225,7 +229,7 @@ rule site:
     resources:
         mem_mb=1500,
     params:
-        code=lambda wildcards: source_hash("build_site", *LIBRARY),
+        code=lambda wildcards: source_hash("conveyor_pipeline/build_site", *LIBRARY),
     script:
         "../../../scripts/conveyor_pipeline/build_site.py"
 

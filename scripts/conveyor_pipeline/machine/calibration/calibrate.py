@@ -6,14 +6,39 @@ import time
 import numpy as np
 from scipy.stats import qmc
 
-from conveyor_pipeline.machine.calibration.effort import MOST_SEARCHES, sizes_of
-from conveyor_pipeline.machine.calibration.inference import DETERMINED, NOT_CONVERGED, NOT_DETERMINED, OPEN, Data, data_of, draw, has_converged, runs_of_search, search, summarize_parameters
-from conveyor_pipeline.machine.calibration.likelihood import velocities
-from conveyor_pipeline.machine.calibration.measurements import CALIBRATED, EXAMPLE, HEADER_UNITS, Measurement, parse, wanted
-from conveyor_pipeline.machine.calibration.model_check import check_fit, compare_alternatives, measured_columns, runs_of_alternatives, runs_of_check
-from conveyor_pipeline.machine.calibration.search_space import bounds_of, values_at
 from conveyor import RANGES, UNITS, progress_bar
 from conveyor_pipeline.common import csv_table, fields
+from conveyor_pipeline.machine.calibration.effort import MOST_SEARCHES, sizes_of
+from conveyor_pipeline.machine.calibration.inference import (
+    DETERMINED,
+    NOT_CONVERGED,
+    NOT_DETERMINED,
+    OPEN,
+    Data,
+    data_of,
+    draw,
+    has_converged,
+    runs_of_search,
+    search,
+    summarize_parameters,
+)
+from conveyor_pipeline.machine.calibration.likelihood import velocities
+from conveyor_pipeline.machine.calibration.measurements import (
+    CALIBRATED,
+    EXAMPLE,
+    HEADER_UNITS,
+    Measurement,
+    parse,
+    wanted,
+)
+from conveyor_pipeline.machine.calibration.model_check import (
+    check_fit,
+    compare_alternatives,
+    measured_columns,
+    runs_of_alternatives,
+    runs_of_check,
+)
+from conveyor_pipeline.machine.calibration.search_space import bounds_of, values_at
 
 TIMED, TIMED_PARTS = 24, 4  # sets of parameters, and parts of each, whose time is measured
 

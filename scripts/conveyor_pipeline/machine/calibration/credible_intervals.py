@@ -9,9 +9,9 @@ from collections.abc import Iterable
 import numpy as np
 from scipy.special import ndtr
 
-from conveyor_pipeline.machine.calibration.importance_sampling import effective_number
 from conveyor.elementary import exp
 from conveyor.linear_algebra import dot
+from conveyor_pipeline.machine.calibration.importance_sampling import effective_number
 
 CONFIDENCE = 0.95  # of the intervals
 OPEN_DENSITY = 0.2  # of the largest density of a parameter: an end of the range with more is open

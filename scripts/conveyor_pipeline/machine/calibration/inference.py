@@ -10,14 +10,22 @@ from typing import NamedTuple
 import numpy as np
 from tqdm import tqdm
 
+from conveyor import UNITS, progress_bar
+from conveyor.elementary import exp, log
 from conveyor_pipeline.machine.calibration.credible_intervals import open_ends, quantiles, summarize, with_errors
 from conveyor_pipeline.machine.calibration.effort import EFFECTIVE, MOST_SEARCHES, SEARCHES
 from conveyor_pipeline.machine.calibration.importance_sampling import Sample, monte_carlo_error, pooled, sample
-from conveyor_pipeline.machine.calibration.likelihood import Conditions, conditions_of, deviations, is_known, log_densities, velocities, widths
+from conveyor_pipeline.machine.calibration.likelihood import (
+    Conditions,
+    conditions_of,
+    deviations,
+    is_known,
+    log_densities,
+    velocities,
+    widths,
+)
 from conveyor_pipeline.machine.calibration.measurements import Measurement
 from conveyor_pipeline.machine.calibration.search_space import LOGARITHMIC, bounds_of, values_at
-from conveyor import UNITS, progress_bar
-from conveyor.elementary import exp, log
 
 DETERMINED, OPEN, NOT_DETERMINED = "determined", "open to one side", "not determined"
 NOT_CONVERGED = "not converged"

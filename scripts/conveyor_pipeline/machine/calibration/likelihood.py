@@ -12,10 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.stats import qmc
 
-from conveyor_pipeline.machine.calibration.measurements import INITIAL, Measurement
 from conveyor import INITIAL_CONDITION, plate_heights, plate_peaks, sample_runs, set_parameters
 from conveyor.elementary import exp, log
 from conveyor_pipeline.common import grid
+from conveyor_pipeline.machine.calibration.measurements import INITIAL, Measurement
 
 TOLERANCE = 1e-5  # per contact step: errors of velocities stay far below those of a measurement
 # The density around a part's velocity is as wide as the distance to its neighbour of this rank, times a factor, but at

@@ -19,15 +19,15 @@ import numpy as np
 from scipy.stats import rankdata
 from tqdm import tqdm
 
+from conveyor import UNITS
+from conveyor.elementary import log
+from conveyor.linear_algebra import dot, product
 from conveyor_pipeline.machine.calibration.effort import EFFECTIVE_OF_EVIDENCE
 from conveyor_pipeline.machine.calibration.importance_sampling import Sample
 from conveyor_pipeline.machine.calibration.inference import Data, centre, draw, runs_of_search, search
 from conveyor_pipeline.machine.calibration.likelihood import deviations, log_densities, velocities, widths
 from conveyor_pipeline.machine.calibration.measurements import Measurement
 from conveyor_pipeline.machine.calibration.search_space import values_at
-from conveyor import UNITS
-from conveyor.elementary import log
-from conveyor.linear_algebra import dot, product
 
 SEARCHES_OF_ALTERNATIVE = (1, 1)  # an evidence needs no interval, and hardly differs between searches
 DECISIVE = (

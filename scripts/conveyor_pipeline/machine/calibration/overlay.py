@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from conveyor_pipeline.machine.calibration.inference import NOT_CONVERGED, NOT_DETERMINED
 from conveyor_pipeline.common.rule_log import JobError
+from conveyor_pipeline.machine.calibration.inference import NOT_CONVERGED, NOT_DETERMINED
 
 DIGITS = 6
 

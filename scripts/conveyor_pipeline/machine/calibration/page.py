@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pandas as pd
 
+from conveyor_pipeline.common.templates import format_significant, render
 from conveyor_pipeline.machine.calibration.credible_intervals import CONFIDENCE
 from conveyor_pipeline.machine.calibration.effort import EFFECTIVE, sizes_of
 from conveyor_pipeline.machine.calibration.inference import DETERMINED, NOT_CONVERGED, NOT_DETERMINED, OPEN, REPEATABLE
 from conveyor_pipeline.machine.calibration.likelihood import OUTLIERS
 from conveyor_pipeline.machine.calibration.measurements import DEFAULTS, first_comments
 from conveyor_pipeline.machine.calibration.model_check import DECISIVE, SIGNIFICANCE, UNLIKELY
-from conveyor_pipeline.common.templates import format_significant, render
 
 WORST = 8  # rows that are named
 SHOWN = 9  # amplitudes in the table of predicted velocities

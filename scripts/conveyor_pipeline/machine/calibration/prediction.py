@@ -15,13 +15,13 @@ import math
 import numpy as np
 import pandas as pd
 
+from conveyor.elementary import exp, log
+from conveyor.linear_algebra import product
+from conveyor_pipeline.common import fields
 from conveyor_pipeline.machine.calibration.effort import sizes_of
 from conveyor_pipeline.machine.calibration.likelihood import conditions_at, deviations, log_densities, velocities
 from conveyor_pipeline.machine.calibration.measurements import CALIBRATED, DEFAULTS
 from conveyor_pipeline.machine.calibration.search_space import LOGARITHMIC
-from conveyor.elementary import exp, log
-from conveyor.linear_algebra import product
-from conveyor_pipeline.common import fields
 
 TABLES = {
     "prediction": (

@@ -5,10 +5,10 @@ from typing import NotRequired
 from typing_extensions import TypedDict
 
 from conveyor import DESCRIPTIONS
-from conveyor_pipeline.machine.operating.settings import box_of
 from conveyor_pipeline.common.settings import MODEL_TYPES, Line, Seed, described, interval, many, mapping, number, word
 from conveyor_pipeline.common.table_settings import INITIAL_CONDITION, model_of
 from conveyor_pipeline.machine.calibration.measurements import CALIBRATED
+from conveyor_pipeline.machine.operating.settings import box_of
 
 POSITIVE_GROUPS = ("friction", "damping", "stiffness", "exponent")
 RANGES_OF_CALIBRATION = {

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from conveyor_pipeline.machine.calibration.measurements import DEFAULTS
 from conveyor import Conveyor, Start, parameter_table, plate_heights, simulate
+from conveyor_pipeline.machine.calibration.measurements import DEFAULTS
 
 TOLERANCE = 1e-9
 FORMAT = ".4g"

@@ -3,10 +3,10 @@
 import pandas as pd
 
 from conveyor import NO_FLUCTUATIONS
+from conveyor_pipeline.common.templates import format_number
 from conveyor_pipeline.machine.operating.parts import differences
 from conveyor_pipeline.machine.operating.regimes import CHAOS, SEVERAL
 from conveyor_pipeline.machine.operating.transit import ENDS
-from conveyor_pipeline.common.templates import format_number
 
 
 def numbers(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame) -> dict:

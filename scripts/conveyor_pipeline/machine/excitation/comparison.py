@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pandas as pd
 
+from conveyor_pipeline.common import fields
 from conveyor_pipeline.machine.excitation.limits import MATTERS
 from conveyor_pipeline.machine.excitation.overlay import drive_of, harmonics_above_noise
 from conveyor_pipeline.machine.operating import transit
 from conveyor_pipeline.machine.operating.parts import VARIED
-from conveyor_pipeline.common import fields
 
 WITH, WITHOUT = DRIVES = ("with harmonics", "without harmonics")
 TABLES = {

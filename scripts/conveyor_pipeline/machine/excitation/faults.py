@@ -10,7 +10,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from conveyor_pipeline.machine.excitation.gravity import direction_fault, gravity_of, size_fault
-from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of, first_fit, gaps_of, sampling_rate, steadiness
+from conveyor_pipeline.machine.excitation.harmonics import (
+    Fit,
+    duration_of,
+    first_fit,
+    gaps_of,
+    sampling_rate,
+    steadiness,
+)
 from conveyor_pipeline.machine.excitation.modulation import Modulation, alternates, modulation_of, timing_line
 from conveyor_pipeline.machine.excitation.reading import DIRECTIONS, UNITS, Recording, parse
 from conveyor_pipeline.machine.excitation.sampling import CHECKED, MOST_EQUAL, MOST_GAPS, resolve

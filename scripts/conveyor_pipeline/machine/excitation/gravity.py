@@ -11,7 +11,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from conveyor_pipeline.machine.excitation.harmonics import Fit
-from conveyor_pipeline.machine.excitation.reading import AXES, STANDARD_GRAVITY, UNITS, Recording, columns_entry, rename, turn
+from conveyor_pipeline.machine.excitation.reading import (
+    AXES,
+    STANDARD_GRAVITY,
+    UNITS,
+    Recording,
+    columns_entry,
+    rename,
+    turn,
+)
 
 ABSENT = 0.06  # of gravity: a mean below this is an offset of a sensor that removes gravity
 SIZE = 0.1  # relative deviation within which the mean counts as gravity; sensors have errors of some percent

@@ -5,12 +5,29 @@ import math
 import numpy as np
 from scipy.ndimage import median_filter
 
+from conveyor_pipeline.common import csv_table, fields
 from conveyor_pipeline.machine.excitation.estimates import PARAMETERS, Doubt, harmonics, noise_of, parameters
 from conveyor_pipeline.machine.excitation.gravity import gravity_of
-from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of, first_fit, fit, orders_of, sampling_rate, spectrum, steadiness
-from conveyor_pipeline.machine.excitation.reading import AXES, DIRECTIONS, EXAMPLE, HEADER_UNITS, Recording, parse, wanted
+from conveyor_pipeline.machine.excitation.harmonics import (
+    Fit,
+    duration_of,
+    first_fit,
+    fit,
+    orders_of,
+    sampling_rate,
+    spectrum,
+    steadiness,
+)
+from conveyor_pipeline.machine.excitation.reading import (
+    AXES,
+    DIRECTIONS,
+    EXAMPLE,
+    HEADER_UNITS,
+    Recording,
+    parse,
+    wanted,
+)
 from conveyor_pipeline.machine.excitation.sampling import resolve
-from conveyor_pipeline.common import csv_table, fields
 
 DIGITS = 10  # of all numbers; further digits depend on the processor, and no sensor has them
 SAMPLES, POINTS, BINS = 2000, 257, 2000  # of the figure

@@ -4,12 +4,12 @@ import math
 
 import pandas as pd
 
+from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.excitation import comparison as compared
 from conveyor_pipeline.machine.excitation.clean_drive import MEASURES
 from conveyor_pipeline.machine.excitation.estimates import CHANCE
 from conveyor_pipeline.machine.excitation.limits import MATTERS
 from conveyor_pipeline.machine.operating.parts import differences
-from conveyor_pipeline.common.templates import render
 
 
 def make(

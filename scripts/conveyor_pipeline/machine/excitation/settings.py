@@ -4,8 +4,20 @@ from typing import NotRequired
 
 from typing_extensions import TypedDict
 
+from conveyor_pipeline.common.settings import (
+    THROW,
+    Acceleration,
+    Line,
+    check_ascending,
+    described,
+    dimensionless,
+    many,
+    mapping,
+    number,
+    whole,
+    word,
+)
 from conveyor_pipeline.machine.operating.settings import parts_settings
-from conveyor_pipeline.common.settings import THROW, Acceleration, Line, check_ascending, described, dimensionless, many, mapping, number, whole, word
 
 Column = described(Line, "name of a column in the file; a minus before it reverses the axis")
 COLUMNS = dict.fromkeys(("time", "x", "z", "along", "normal"), NotRequired[Column])

@@ -6,8 +6,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FormatStrFormatter, LogLocator, MaxNLocator, NullFormatter, ScalarFormatter
 
-from conveyor_pipeline.machine.calibration.search_space import LOGARITHMIC
 from conveyor_pipeline.figures import style
+from conveyor_pipeline.machine.calibration.search_space import LOGARITHMIC
 from conveyor_pipeline.machine.figures.basin_stability import ends_of
 
 MISFIT = "#D55E00"

@@ -4,9 +4,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from conveyor_pipeline.paper.claims.about_proofs import lowest_fold
 from conveyor_pipeline.figures import style
 from conveyor_pipeline.machine.figures.basin_stability import draw_motions, share_handles
+from conveyor_pipeline.paper.claims.about_proofs import lowest_fold
 
 
 def proved_fold(throws: pd.DataFrame, bifurcations: pd.DataFrame) -> float:

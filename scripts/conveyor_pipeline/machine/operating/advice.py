@@ -12,9 +12,16 @@ import numpy as np
 import pandas as pd
 
 from conveyor import RANGES, throw_number
-from conveyor_pipeline.machine.operating.parts import VARIED, population, with_calibration
-from conveyor_pipeline.machine.operating.transit import MEASURES, PROBABILITIES, follow, measure, spread_of, summarize_populations
 from conveyor_pipeline.common import fields
+from conveyor_pipeline.machine.operating.parts import VARIED, population, with_calibration
+from conveyor_pipeline.machine.operating.transit import (
+    MEASURES,
+    PROBABILITIES,
+    follow,
+    measure,
+    spread_of,
+    summarize_populations,
+)
 
 FAST, EVEN = "fast", "even"
 RESAMPLES = 400  # of the parts, for the standard errors of changes

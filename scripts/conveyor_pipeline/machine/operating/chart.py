@@ -7,12 +7,24 @@ import numpy as np
 import pandas as pd
 
 from conveyor import UNITS, plate_peaks
-from conveyor_pipeline.machine.operating.advice import ENOUGH, EVEN, FAST, neighbours
-from conveyor_pipeline.machine.operating.parts import differences
-from conveyor_pipeline.machine.operating.regimes import CHAOS, ONE, SAME_VELOCITY, SEVERAL, SLIDES_AWAY, UNDECIDED, UNKNOWN, UNSETTLED, is_frictionless, merge_narrow, summarize_amplitudes
-from conveyor_pipeline.machine.operating.transit import QUANTILES, spread_stderr, time_of_drop
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.templates import render
+from conveyor_pipeline.machine.operating.advice import ENOUGH, EVEN, FAST, neighbours
+from conveyor_pipeline.machine.operating.parts import differences
+from conveyor_pipeline.machine.operating.regimes import (
+    CHAOS,
+    ONE,
+    SAME_VELOCITY,
+    SEVERAL,
+    SLIDES_AWAY,
+    UNDECIDED,
+    UNKNOWN,
+    UNSETTLED,
+    is_frictionless,
+    merge_narrow,
+    summarize_amplitudes,
+)
+from conveyor_pipeline.machine.operating.transit import QUANTILES, spread_stderr, time_of_drop
 
 # If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
 # -log(0.05) is 2.996.

@@ -10,10 +10,10 @@ import numpy as np
 import pandas as pd
 
 from conveyor import RANDOM_WALK_STATUS, random_walk, relative_spread, sample_runs
+from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.machine.operating.parts import IDENTICAL, population, starts_of_box
 from conveyor_pipeline.machine.operating.regimes import CHAOS, SEVERAL
 from conveyor_pipeline.machine.operating.transit import PROBABILITIES, follow, quantiles, spread_of, spread_stderr
-from conveyor_pipeline.common import fields, grid
 
 # By an effort of 1, with which the standard error of a diffusion coefficient is about 5 %.
 AMPLITUDES = 8  # at most, among those at which all initial conditions end in chaos

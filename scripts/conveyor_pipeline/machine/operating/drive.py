@@ -16,9 +16,9 @@ import pandas as pd
 from conveyor import UNITS, Columns, parameter_table, plate_peaks, progress_bar, set_parameters
 from conveyor.elementary import exp, log, sin
 from conveyor.linear_algebra import length
+from conveyor_pipeline.common import fields, grid, pareto
 from conveyor_pipeline.machine.operating.parts import population
 from conveyor_pipeline.machine.operating.transit import follow, summarize_populations
-from conveyor_pipeline.common import fields, grid, pareto
 
 DRAWN = (
     8  # random designs of the first generation, in units of the population, because few of them meet all constraints

@@ -8,7 +8,23 @@ from typing import NotRequired
 from typing_extensions import TypedDict
 
 from conveyor import DESCRIPTIONS, UNITS
-from conveyor_pipeline.common.settings import MODEL_TYPES, THROW, Acceleration, Effort, Seed, Tolerance, Velocity, axis, described, dimensionless, interval, mapping, number, span, whole
+from conveyor_pipeline.common.settings import (
+    MODEL_TYPES,
+    THROW,
+    Acceleration,
+    Effort,
+    Seed,
+    Tolerance,
+    Velocity,
+    axis,
+    described,
+    dimensionless,
+    interval,
+    mapping,
+    number,
+    span,
+    whole,
+)
 from conveyor_pipeline.common.table_settings import INITIAL_CONDITION, model_of
 
 DEVIATION = number("relative standard deviation", "of the value in the model", ge=0, le=1)

@@ -11,10 +11,10 @@ import pandas as pd
 
 from conveyor import LAST, Columns, continued, plate_peaks, sample_runs, sweep, throw_number
 from conveyor.elementary import cos, sin
-from conveyor_pipeline.machine.operating import regimes
-from conveyor_pipeline.machine.operating.parts import IDENTICAL, population
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import label_starts
+from conveyor_pipeline.machine.operating import regimes
+from conveyor_pipeline.machine.operating.parts import IDENTICAL, population
 
 TABLES = {
     "shares": (

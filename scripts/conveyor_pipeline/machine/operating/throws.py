@@ -9,8 +9,8 @@ import pandas as pd
 import yaml
 
 from conveyor import normal_gravity, throw_number, throw_velocity
-from conveyor_pipeline.machine.operating import shares
 from conveyor_pipeline.common import fields
+from conveyor_pipeline.machine.operating import shares
 
 FOLLOWED = 4  # initial conditions per attractor from which its mean velocity is computed
 TABLES = {

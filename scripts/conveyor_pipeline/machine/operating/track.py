@@ -9,11 +9,11 @@ Where the track is too steep for friction, a part slides downhill faster and fas
 import numpy as np
 
 from conveyor import plate_peaks, sweep
+from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.common.labelling import label_starts
 from conveyor_pipeline.machine.operating.parts import IDENTICAL, population
 from conveyor_pipeline.machine.operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY, fill_in, steepness
 from conveyor_pipeline.machine.operating.shares import FORGOTTEN, SETTLED, brief_durations, continue_normal
-from conveyor_pipeline.common import fields, grid
-from conveyor_pipeline.common.labelling import label_starts
 
 STATES = ("first", "second")
 NOT_REACHED = "no initial condition leads to the state"

@@ -12,8 +12,8 @@ import pandas as pd
 from scipy.stats.mstats import mjci
 
 from conveyor import Columns, transits
-from conveyor_pipeline.machine.operating.parts import IDENTICAL, POPULATIONS, differences, population, with_calibration
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.machine.operating.parts import IDENTICAL, POPULATIONS, differences, population, with_calibration
 
 PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
 QUANTILES = tuple(f"velocity_{round(100 * probability):02d}" for probability in PROBABILITIES)

@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 
 from conveyor import PARAMETERS, RANGES, TANGENTIAL
-from conveyor_pipeline.figures import style
 from conveyor_pipeline.common.rule_log import JobError
+from conveyor_pipeline.figures import style
 
 HERE = Path(__file__).parent
 # Files inserted into page.html, each in place of the comment with its name.

@@ -4,8 +4,8 @@ import math
 
 import pandas as pd
 
-from conveyor_pipeline.paper.claims.about_chaos import positive_onset, with_settled_motion
 from conveyor_pipeline.paper.caption_numbers.bifurcation import is_chaotic
+from conveyor_pipeline.paper.claims.about_chaos import positive_onset, with_settled_motion
 
 
 def describe_exceptions(table: pd.DataFrame) -> str:

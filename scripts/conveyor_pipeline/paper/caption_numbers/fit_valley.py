@@ -3,8 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from conveyor_pipeline.paper.claims.about_states import flat_part
 from conveyor import Hyperbola, critical_height
+from conveyor_pipeline.paper.claims.about_states import flat_part
 
 
 def numbers(*, fit: pd.DataFrame) -> dict[str, float]:

@@ -2,9 +2,9 @@
 
 import pandas as pd
 
+from conveyor_pipeline.paper.caption_numbers.fig22 import describe_exceptions
 from conveyor_pipeline.paper.claims.about_chaos import positive_onset
 from conveyor_pipeline.paper.claims.about_proofs import lowest_fold
-from conveyor_pipeline.paper.caption_numbers.fig22 import describe_exceptions
 
 
 def numbers(*, bifurcations: pd.DataFrame, estimate: pd.DataFrame) -> dict[str, float | str]:

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
+from conveyor.linear_algebra import fit_line
 from conveyor_pipeline.paper.claims import about_proofs
 from conveyor_pipeline.paper.claims.about_chaos import with_settled_motion
 from conveyor_pipeline.paper.claims.finding import NONE, Finding, by_method, format_amplitude, onset, single_quantity
-from conveyor.linear_algebra import fit_line
 
 MM = 1e3
 LINE = 0.02  # smallest visible line of a spectrum, over its largest amplitude

@@ -3,9 +3,9 @@
 import numpy as np
 import pandas as pd
 
-from conveyor_pipeline.paper.claims.finding import NONE, Finding
 from conveyor.linear_algebra import fit_line
 from conveyor_pipeline.machine.operating.regimes import BESIDE, CHAOS, SEVERAL
+from conveyor_pipeline.paper.claims.finding import NONE, Finding
 
 
 def exponents(lengths: pd.DataFrame, regime: str) -> dict[float, float]:

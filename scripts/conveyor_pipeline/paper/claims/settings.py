@@ -4,7 +4,19 @@ from typing import NotRequired
 
 from typing_extensions import TypedDict
 
-from conveyor_pipeline.common.settings import Acceleration, Line, Reference, described, entries, interval, many, mapping, number, text, word
+from conveyor_pipeline.common.settings import (
+    Acceleration,
+    Line,
+    Reference,
+    described,
+    entries,
+    interval,
+    many,
+    mapping,
+    number,
+    text,
+    word,
+)
 
 CLAIMS = tuple(f"C{place:02d}" for place in range(1, 27))
 NameOfClaim = word("claim of the paper", *CLAIMS)

@@ -5,10 +5,10 @@ import math
 import pandas as pd
 import pyarrow as pa
 
-from conveyor_pipeline.paper.claims import about_chaos, about_states, about_transit
-from conveyor_pipeline.paper.claims.finding import METHODS, Finding, format_interval
 from conveyor_pipeline.common import fields, tables
 from conveyor_pipeline.common.templates import render
+from conveyor_pipeline.paper.claims import about_chaos, about_states, about_transit
+from conveyor_pipeline.paper.claims.finding import METHODS, Finding, format_interval
 
 TABLES = {
     "claims": (

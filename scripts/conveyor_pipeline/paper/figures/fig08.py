@@ -6,8 +6,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from conveyor import plate_peaks
-from conveyor_pipeline.figures import style
 from conveyor_pipeline.common import grid
+from conveyor_pipeline.figures import style
 
 # Interquartile range of the velocities of one motion, over the largest velocity, above which runs have not settled.
 WIDE = 0.05

@@ -7,8 +7,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from conveyor import conveyor_motion
-from conveyor_pipeline.figures import style
 from conveyor_pipeline.common import grid
+from conveyor_pipeline.figures import style
 
 
 def draw_phase_map(table: pd.DataFrame, name: str, label: str, fixed: str) -> tuple[Figure, Axes]:

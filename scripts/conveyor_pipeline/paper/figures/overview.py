@@ -4,8 +4,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from conveyor_pipeline.paper.claims.about_proofs import lowest_fold
 from conveyor_pipeline.figures import style
+from conveyor_pipeline.paper.claims.about_proofs import lowest_fold
 
 SHADE = "0.93"
 # Colours of the exponents of the attractors that are followed over the amplitude; the upper branch hides the lower one.

@@ -4,7 +4,18 @@ from typing import NotRequired
 
 from typing_extensions import TypedDict
 
-from conveyor_pipeline.common.settings import Axes, Duration, Followed, HeightNumber, Model, axis, check_ascending, entries, number, span
+from conveyor_pipeline.common.settings import (
+    Axes,
+    Duration,
+    Followed,
+    HeightNumber,
+    Model,
+    axis,
+    check_ascending,
+    entries,
+    number,
+    span,
+)
 
 
 class Signal(Followed):

@@ -3,8 +3,8 @@
 import numpy as np
 
 from conveyor import Run, conveyor_motion
-from conveyor_pipeline.paper.motion.runs import simulate_entry
 from conveyor_pipeline.common import fields
+from conveyor_pipeline.paper.motion.runs import simulate_entry
 
 TABLES = {
     "signals": (

@@ -4,7 +4,23 @@ from typing import NotRequired
 
 from typing_extensions import TypedDict
 
-from conveyor_pipeline.common.settings import Acceleration, Accelerations, Duration, Followed, Height, Model, Tolerance, Velocity, described, entries, interval, many, number, whole, word
+from conveyor_pipeline.common.settings import (
+    Acceleration,
+    Accelerations,
+    Duration,
+    Followed,
+    Height,
+    Model,
+    Tolerance,
+    Velocity,
+    described,
+    entries,
+    interval,
+    many,
+    number,
+    whole,
+    word,
+)
 from conveyor_pipeline.common.table_settings import FOLLOWED, model_of, with_model
 
 Epsilon = number("size of the perturbation, in units of the perturbed parameter", ge=1e-15, le=1)

@@ -2,9 +2,9 @@
 
 import pandas as pd
 
+from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.study.accuracy import speed
 from conveyor_pipeline.study.accuracy.scenes import SCENES, TRUTH
-from conveyor_pipeline.common.templates import render
 
 
 def make(template: str, **tables: pd.DataFrame) -> str:

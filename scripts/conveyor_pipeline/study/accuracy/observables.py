@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from conveyor_pipeline.common import grid
 from conveyor_pipeline.paper.dimensions import portraits
 from conveyor_pipeline.paper.motion import critical, impacts, signals, spectra
 from conveyor_pipeline.paper.orbits import estimates, exponents, strobes
-from conveyor_pipeline.common import grid
 from conveyor_pipeline.paper.sweeps import shards
 
 LINE = 0.005  # visible change as a share of the axis range: a line of 0.25 mm on an axis of 50 mm

@@ -13,11 +13,11 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor_pipeline.study.accuracy.scenes import TRUTH
-from conveyor_pipeline.study.accuracy.timing import run_in_turns
 from conveyor import ORDER, Conveyor, Run, Start, classify, continued, conveyor_motion, parameter_table, simulate
 from conveyor.methods import fixed_step, modes, scipy_integrators
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.study.accuracy.scenes import TRUTH
+from conveyor_pipeline.study.accuracy.timing import run_in_turns
 
 RUN = (
     fields.text("method", "event, a fixed-step method, or an integrator of SciPy"),

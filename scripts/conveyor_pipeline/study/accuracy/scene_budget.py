@@ -11,11 +11,11 @@ from functools import cache, partial
 import numpy as np
 import pandas as pd
 
+from conveyor import conveyor_and_start, for_each_chunk, simulate
+from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.study.accuracy import observables
 from conveyor_pipeline.study.accuracy.observables import SHOWN
 from conveyor_pipeline.study.accuracy.timing import run_in_turns
-from conveyor import conveyor_and_start, for_each_chunk, simulate
-from conveyor_pipeline.common import fields, grid
 
 TABLES = {
     "scene_budget": (

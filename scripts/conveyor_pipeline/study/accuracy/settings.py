@@ -4,7 +4,18 @@ from operator import itemgetter
 
 from typing_extensions import TypedDict
 
-from conveyor_pipeline.common.settings import MOST_POINTS, Duration, Effort, Line, Name, Reference, described, many, mapping, whole
+from conveyor_pipeline.common.settings import (
+    MOST_POINTS,
+    Duration,
+    Effort,
+    Line,
+    Name,
+    Reference,
+    described,
+    many,
+    mapping,
+    whole,
+)
 from conveyor_pipeline.common.table_settings import FOLLOWED, model_of, with_model
 from conveyor_pipeline.study.accuracy.scenes import LONGEST, SCENES
 

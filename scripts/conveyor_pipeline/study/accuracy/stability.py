@@ -8,7 +8,6 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import beta
 
-from conveyor_pipeline.study.accuracy.closed_forms import compression, undamped_duration
 from conveyor import (
     DEFAULT_TOLERANCE,
     FIXED_STEP_METHODS,
@@ -22,6 +21,7 @@ from conveyor import (
 )
 from conveyor.methods import fixed_step
 from conveyor_pipeline.common import fields
+from conveyor_pipeline.study.accuracy.closed_forms import compression, undamped_duration
 
 TABLES = {
     "stability": (

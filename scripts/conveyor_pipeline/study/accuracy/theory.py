@@ -12,7 +12,6 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import minimize_scalar
 
-from conveyor_pipeline.study.accuracy import closed_forms
 from conveyor import (
     Conveyor,
     Start,
@@ -26,6 +25,7 @@ from conveyor import (
 from conveyor.methods import event_driven
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.rule_log import JobError
+from conveyor_pipeline.study.accuracy import closed_forms
 
 TABLES = {
     "theory": (

@@ -8,8 +8,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 
-from conveyor_pipeline.study.accuracy.speed import PAPER_STEP
 from conveyor_pipeline.figures import style
+from conveyor_pipeline.study.accuracy.speed import PAPER_STEP
 
 OUTCOMES = {"right": "#BFD9EA", "wrong state": "#F3D9A0", "energy grows": "#D55E00", "blow-up": "#444444"}
 AXES = {

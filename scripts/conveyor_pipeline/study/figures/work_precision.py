@@ -8,9 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
-from conveyor_pipeline.study.accuracy import speed
 from conveyor import FIXED_STEP_METHODS
 from conveyor_pipeline.figures import style
+from conveyor_pipeline.study.accuracy import speed
 
 # Marker and line of each treatment of events, and its name in the legend.
 TREATMENTS = {
