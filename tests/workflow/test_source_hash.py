@@ -28,7 +28,6 @@ CALLS = {
     "excitation/clean_drive": {"operating/transit"},
     "excitation/comparison": {"operating/transit"},
     "operating/throws": {"operating/regimes", "operating/shares"},
-    "claims/verdicts": {"accuracy/stability_estimates"},
 }
 
 

@@ -10,9 +10,9 @@ import inspect
 
 import pandas as pd
 
+from conveyor_pipeline.common.steepness import is_steep
 from conveyor_pipeline.common.templates import name_harmonics, render
 from conveyor_pipeline.figures.titles import caption_file, package_of, split_title
-from conveyor_pipeline.machine.operating.regimes import is_steep
 
 
 def caption(template: str, name: str, tables: dict[str, pd.DataFrame], settings: dict, paper: bool = True) -> str:

@@ -11,6 +11,7 @@ from project import ROOT, si_config
 
 from conveyor import Columns, Conveyor, Start, classify, conveyor_motion, ensemble, parameter_table, simulate
 from conveyor_pipeline.common.labelling import label_entry
+from conveyor_pipeline.common.steepness import steepness
 from conveyor_pipeline.common.templates import format_range
 from conveyor_pipeline.config.tables import TABLES
 from conveyor_pipeline.machine.operating import advice, chart, parts, regimes, shares, throws, transit
@@ -128,9 +129,9 @@ def test_a_part_that_slides_on_a_steep_track_has_no_velocity(acceleration, z, pe
 
 def test_how_steep_a_track_is_depends_on_both_coefficients_of_friction():
     tracks = parameter_table(Conveyor(friction=0.2, static_friction=0.35), inclination=[-0.1, 0.3, 0.4])
-    assert list(regimes.steepness(tracks)) == [0, 1, 2]
+    assert list(steepness(tracks)) == [0, 1, 2]
     level = parameter_table(Conveyor(friction=0.0), inclination=[0.0])
-    assert list(regimes.steepness(level)) == [0]
+    assert list(steepness(level)) == [0]
 
 
 def test_a_part_that_sticks_in_every_cycle_has_a_velocity_on_a_steep_track():

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from project import ROOT, read_config
 
-from conveyor_pipeline.paper.claims import about_chaos, about_proofs, about_states, about_transit, verdicts
+from conveyor_pipeline.paper.claims import about_chaos, about_proofs, about_states, verdicts
 from conveyor_pipeline.paper.claims.finding import Finding, onset
 
 AMPLITUDES = np.arange(20.0, 91.0)
@@ -619,16 +619,3 @@ def test_the_page_explains_verdicts_and_has_dashes_for_missing_numbers():
     )
     assert "## Notes" not in page  # no heading without a text below it
     assert "an overlay without a prefix" in verdicts.report(template, table.iloc[:0])
-
-
-def test_where_chaos_depends_on_the_initial_condition():
-    regimes = pd.DataFrame(
-        {
-            "regime": ["one velocity", "chaos beside other motions", "chaos only", "chaos beside other motions"],
-            "begin": [20.0, 53.0, 60.0, 73.0],
-            "end": [52.0, 53.5, 72.0, 73.0],
-        }
-    )
-    expected = "At 53 to 53.5, 73 m/s², chaos exists beside other motions, and the initial condition decides"
-    assert about_transit.describe_regimes(regimes) == expected
-    assert about_transit.describe_regimes(regimes[:3]).startswith("From 60 m/s² on, all motions are chaotic. At 53")

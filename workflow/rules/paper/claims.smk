@@ -3,6 +3,14 @@ from conveyor_pipeline.config.tables import references, tighter_claims
 
 # Each claim alone.
 CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
+
+
+def findings_of(claims):
+    """The modules of their findings, as paths below scripts/ without ".py"."""
+    names = sorted({claim["finding"].split(".")[0] for claim in claims.values()})
+    return [module for name in names for module in figure_modules(name, "claims")]
+
+
 CLAIM_FILES = [table("results/claims"), result("claims.md")] if IS_PAPER else []
 TIGHTER_CLAIMS = tighter_claims(config)
 # Tests of the results, which apply to the paper's conveyor only, and the tables that they read.
@@ -28,7 +36,11 @@ rule claims:
     benchmark:
         benchmark_file("checks/claims")
     params:
-        **stage("conveyor_pipeline.paper.claims.verdicts", "results/claims"),
+        **stage(
+            "conveyor_pipeline.paper.claims.verdicts",
+            "results/claims",
+            scripts=lambda wildcards: findings_of(config["claims"]),
+        ),
         references=references_of(config["claims"]),
     script:
         "../../../scripts/conveyor_pipeline/make.py"
@@ -48,7 +60,10 @@ rule claim:
     wildcard_constraints:
         name=one_of(config["claims"]),
     params:
-        **stage("conveyor_pipeline.paper.claims.one_claim"),
+        **stage(
+            "conveyor_pipeline.paper.claims.one_claim",
+            scripts=lambda wildcards: findings_of(CLAIM[wildcards.name]),
+        ),
         settings=lambda wildcards: {"claims": CLAIM[wildcards.name]},
         references=lambda wildcards: references_of(CLAIM[wildcards.name]),
     script:
@@ -67,7 +82,10 @@ rule uncertainty:
     benchmark:
         benchmark_file("checks/uncertainty")
     params:
-        **stage("conveyor_pipeline.paper.claims.uncertainty"),
+        **stage(
+            "conveyor_pipeline.paper.claims.uncertainty",
+            scripts=lambda wildcards: findings_of(TIGHTER_CLAIMS),
+        ),
         settings={"claims": TIGHTER_CLAIMS},
         references=references_of(TIGHTER_CLAIMS),
     script:

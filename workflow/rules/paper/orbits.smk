@@ -86,3 +86,22 @@ rule lyapunov:
         **stage("conveyor_pipeline.paper.orbits.exponents", "lyapunov/spectrum"),
     script:
         "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule estimators:
+    """How far estimates of exponents and dimensions can be trusted."""
+    output:
+        table("results/{name}"),
+    log:
+        log_file("estimators/{name}"),
+    benchmark:
+        benchmark_file("estimators/{name}")
+    wildcard_constraints:
+        name="stability_estimates|moved_impacts",
+    threads: THREADS
+    resources:
+        runtime=60,
+    params:
+        **stage("conveyor_pipeline.paper.orbits.{name}", "results/{name}"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"

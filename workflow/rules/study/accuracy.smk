@@ -8,9 +8,7 @@ PRECISION = {
     f"{scene}{ending}": table(f"precision{ending}/{scene}") for scene in scenes.SCENES for ending in ("", "_times")
 }
 # Of the target `study`.
-STUDY_FIGURES = listed_figures(
-    "work_precision", "stability", "stability_estimates", "scene_budget", "settling", "moved_impacts"
-)
+STUDY_FIGURES = listed_figures("work_precision", "stability", "scene_budget", "settling")
 
 
 # These jobs start early, because each scene keeps one core busy for a long time.
@@ -52,7 +50,7 @@ rule benchmark:
 
 # The tables that each table of the rule `accuracy` is made from; most are made from the config alone.
 COMPARED_TABLES = {
-    **dict.fromkeys(("stability", "stability_estimates", "moved_impacts", "settling_times"), {}),
+    **dict.fromkeys(("stability", "settling_times"), {}),
     "map_check": {"maps": [table(f"sweeps/{name}") for name in config["map_check"]["maps"]]},
     "theory": tables_of("orbits/cascade"),
 }

@@ -8,6 +8,7 @@ import pandas as pd
 
 from conveyor import UNITS, plate_peaks
 from conveyor_pipeline.common import grid
+from conveyor_pipeline.common.steepness import is_frictionless
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.advice import ENOUGH, EVEN, FAST, neighbours
 from conveyor_pipeline.machine.operating.parts import differences
@@ -20,7 +21,6 @@ from conveyor_pipeline.machine.operating.regimes import (
     UNDECIDED,
     UNKNOWN,
     UNSETTLED,
-    is_frictionless,
     merge_narrow,
     summarize_amplitudes,
 )

@@ -3,11 +3,11 @@
 import numpy as np
 import pandas as pd
 
+from conveyor_pipeline.common.steepness import is_frictionless, is_steep
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.chart import MANY_LATE, RULE_OF_THREE
 from conveyor_pipeline.machine.operating.drive import DRAWN, SEEDS, SETTLED, last_growth
 from conveyor_pipeline.machine.operating.parts import differences
-from conveyor_pipeline.machine.operating.regimes import is_frictionless, is_steep
 from conveyor_pipeline.machine.operating.transit import ENDS
 
 

@@ -13,6 +13,7 @@ from conveyor import LAST, Columns, continued, plate_peaks, sample_runs, sweep, 
 from conveyor.elementary import cos, sin
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import label_starts
+from conveyor_pipeline.common.steepness import steepness
 from conveyor_pipeline.machine.operating import regimes
 from conveyor_pipeline.machine.operating.parts import IDENTICAL, population
 
@@ -114,7 +115,7 @@ def velocities(
     # A mean over whole periods; the last quarter of a run is what a mean is taken over.
     step = np.maximum(period, 1)
     quarter = np.maximum(np.maximum(CYCLES, np.ceil((settled + FORGOTTEN) / 3.0)), step)
-    steep = regimes.steepness(parameters)
+    steep = steepness(parameters)
     status[steep == 2], open_ = regimes.SLIDES_AWAY, np.flatnonzero(steep < 2)
     # Every trajectory needs the second run, which contains the first; one integration gives both.
     for doublings in ([0, 1], *([doubling] for doubling in range(2, RUNS))):

@@ -11,8 +11,9 @@ import numpy as np
 from conveyor import plate_peaks, sweep
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import label_starts
+from conveyor_pipeline.common.steepness import fill_in, steepness
 from conveyor_pipeline.machine.operating.parts import IDENTICAL, population
-from conveyor_pipeline.machine.operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY, fill_in, steepness
+from conveyor_pipeline.machine.operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY
 from conveyor_pipeline.machine.operating.shares import FORGOTTEN, SETTLED, brief_durations, continue_normal
 
 STATES = ("first", "second")

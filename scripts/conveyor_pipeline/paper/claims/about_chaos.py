@@ -136,7 +136,7 @@ def phase_estimate(
 def describe_perturbations(estimates: pd.DataFrame) -> str:
     """How the estimate for a periodic motion depends on the perturbation, in words."""
     # Not at the top, because captions import this module, and Numba takes most of their time.
-    from conveyor_pipeline.study.accuracy.stability_estimates import CASES
+    from conveyor_pipeline.paper.orbits.stability_estimates import CASES
 
     rows = estimates[(estimates.panel == "perturbation") & (estimates.case == "orbit_phase")]
     by_euler, converged = (rows[rows.estimator == method].value for method in ("euler", "event"))

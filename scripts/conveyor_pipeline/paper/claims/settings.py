@@ -44,7 +44,7 @@ FINDING_SETTINGS = {
 class Claim(TypedDict):
     where: described(Line, "section or figure of the paper")
     statement: described(Line, "the claim")
-    finding: described(Line, "function of scripts/conveyor_pipeline/paper/claims, as MODULE.FUNCTION")
+    finding: described(Line, "function of scripts/conveyor_pipeline/FLOOR/claims, as MODULE.FUNCTION")
     settings: NotRequired[mapping("settings of the finding", FINDING_SETTINGS, total=False)]
     quantities: entries(Quantity, "quantities that the finding returns", min_length=1)
     tables: entries(Reference, "tables by the roles that the finding knows")
@@ -61,5 +61,6 @@ SECTIONS = {
 }
 
 
-# The tables that are not entries, and the function that returns the settings of each.
-TABLE_SETTINGS = {"results/claims": lambda config: {"claims": config["claims"]}}
+# The tables that are not entries, and the function that returns the settings of each. Floors add claims, so they are
+# sorted.
+TABLE_SETTINGS = {"results/claims": lambda config: {"claims": dict(sorted(config["claims"].items()))}}

@@ -1,13 +1,15 @@
 """The paper's checkable statements: numbers by both methods, and the verdicts that follow from them."""
 
+import importlib
 import math
+from collections.abc import Callable
 
 import pandas as pd
 import pyarrow as pa
 
 from conveyor_pipeline.common import fields, tables
 from conveyor_pipeline.common.templates import render
-from conveyor_pipeline.paper.claims import about_chaos, about_states, about_transit
+from conveyor_pipeline.figures.titles import package_of
 from conveyor_pipeline.paper.claims.finding import METHODS, Finding, format_interval
 
 TABLES = {
@@ -27,8 +29,6 @@ TABLES = {
     ),
 }
 
-# Modules with the functions that the claims of the config name as `finding`.
-FINDINGS = {"about_chaos": about_chaos, "about_states": about_states, "about_transit": about_transit}
 REPRODUCED = "reproduced"
 PAPER_METHOD_ONLY = "reproduced by the paper's method only"
 NOT_REPRODUCED = "not reproduced"
@@ -37,11 +37,16 @@ VERDICTS = (REPRODUCED, PAPER_METHOD_ONLY, NOT_REPRODUCED)
 PER_QUANTITY = ("paper", "paper_method", "converged", "accepted_low", "accepted_high", "because")
 
 
+def finding_of(claim: dict) -> Callable[..., Finding]:
+    """The function that a claim of the config names as `finding`; its module is in the folder `claims` of any floor."""
+    module, function = claim["finding"].split(".")
+    return getattr(importlib.import_module(f"{package_of(module, 'claims')}.{module}"), function)
+
+
 def evaluate(claim: dict, read: dict[str, pd.DataFrame]) -> Finding:
     """The Finding of a claim of the config, from the tables by reference."""
-    module, function = claim["finding"].split(".")
     tables_by_role = {role: read[reference] for role, reference in claim["tables"].items()}
-    return getattr(FINDINGS[module], function)(**tables_by_role, **claim.get("settings", {}))
+    return finding_of(claim)(**tables_by_role, **claim.get("settings", {}))
 
 
 def is_accepted(value: float, accepted: list[float | None]) -> bool:

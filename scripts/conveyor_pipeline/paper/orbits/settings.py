@@ -107,4 +107,7 @@ TABLE_SETTINGS = {
     **dict.fromkeys((f"orbits/{name}" for name in CERTIFIED_TABLES), certified_settings),
     "attractors/strobes": strobes_settings,
     "lyapunov/spectrum": exponents_settings,
+    **dict.fromkeys(
+        ("results/stability_estimates", "results/moved_impacts"), lambda config: {"model": model_of(config)}
+    ),
 }

@@ -77,10 +77,7 @@ def scene_budget_settings(config: dict) -> dict:
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     "results/stability": itemgetter("stability"),
-    **dict.fromkeys(
-        ("results/stability_estimates", "results/moved_impacts", "results/theory"),
-        lambda config: {"model": model_of(config)},
-    ),
+    "results/theory": lambda config: {"model": model_of(config)},
     **dict.fromkeys(("results/scene_budget", "results/budget_times"), scene_budget_settings),
     "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),

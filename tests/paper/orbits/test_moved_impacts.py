@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start, simulate
-from conveyor_pipeline.study.accuracy import moved_impacts
+from conveyor_pipeline.paper.orbits import moved_impacts
 
 SHIFT_OF_A_STEP = 5e-7 * 2.0 * math.pi * 50.0  # rad, phase of the plate in one time step of the paper's method
 

@@ -1,0 +1,1 @@
+"""Findings of the floor machine: what claims.yaml names as `finding`."""
