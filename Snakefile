@@ -39,7 +39,7 @@ try:
 except ConfigError as error:
     raise WorkflowError(str(error))
 config = loaded.config
-IS_PAPER, ASSUMED_PARTS = loaded.is_paper, loaded.assumed
+IS_PAPER = loaded.is_paper
 
 
 report: "workflow/report/workflow.rst"

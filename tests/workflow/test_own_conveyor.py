@@ -140,12 +140,6 @@ def test_dimensionless_values_that_cannot_be_used_are_refused(overlay, told):
         load({"prefix": "mine", **overlay})
 
 
-def test_differences_of_parts_that_no_overlay_states_are_assumed():
-    assert load_config(DEFAULT_FILES, [], {}).assumed == ["friction", "damping", "stiffness", "mass", "acceleration"]
-    overlay = {"prefix": "mine", "parts": {"friction": 0.15, "mass": 0.0}}
-    assert load_config(DEFAULT_FILES, [], overlay).assumed == ["damping", "stiffness", "acceleration"]
-
-
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_examples_are_short_and_unlike_the_paper(name):
     assert len(EXAMPLES[name].read_text().splitlines()) <= 18

@@ -199,7 +199,7 @@ def rows_of_shard(wildcards):
 
 # -- measured files ----------------------------------------------------------------------------------------------------
 
-MEASURED = {section: config[section].get(key) for section, key in MEASURED_FILES}
+MEASURED = {section: config[section].get(key) for section, key in MEASURED_FILES.items()}
 # Errors for a config without such a file.
 NOT_MEASURED = {
     "calibration": "a calibration needs measured velocities; give an overlay with a prefix that names a CSV file of them, relative "

@@ -21,7 +21,7 @@ class Loaded(NamedTuple):
     config: dict  # canonical, with the tables of all methods and of tighter tolerances
     merged: dict  # canonical, as files and command line give it
     is_paper: bool  # whether the model is the paper's, so that its claims, remarks and marks apply
-    assumed: list[str]  # differences of parts that no overlay states
+    stated: dict  # what overlays and command line state, as they give it
 
 
 def canonical(config: dict) -> dict:
@@ -37,7 +37,7 @@ def name_measurements(config: dict, files: Sequence[str | Path], contents: list[
 
     A name that no overlay gives, such as one from the command line, is relative to the working directory.
     """
-    for section, key in MEASURED_FILES:
+    for section, key in MEASURED_FILES.items():
         given = config[section].get(key)
         for file, content in zip(files, contents, strict=True):
             own = content.get(section)
@@ -60,13 +60,11 @@ def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str
     if errors := type_problems(whole):
         raise ConfigError(name_lines(errors, overlay_files))
     name_measurements(whole, overlay_files, overlays)
-    states_frequency = any("frequency" in (overlay.get("model") or {}) for overlay in overlays)
-    if errors := problems(whole, paper, states_frequency):
+    stated = merge(*overlays, config)
+    if errors := problems(whole, paper, stated):
         raise ConfigError(name_lines(errors, overlay_files))
-    for section, key in MEASURED_FILES:
+    for section, key in MEASURED_FILES.items():
         if key not in whole[section]:
             whole["figures_on_request"].pop(section, None)
     merged = canonical(whole)
-    stated = merge(*overlays, config).get("parts", {})
-    assumed = [name for name in paper["parts"] if name not in (*stated, "seed")]
-    return Loaded(with_tighter(by_methods(merged)), merged, is_same_model(merged["model"], paper["model"]), assumed)
+    return Loaded(with_tighter(by_methods(merged)), merged, is_same_model(merged["model"], paper["model"]), stated)

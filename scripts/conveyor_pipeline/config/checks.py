@@ -1,14 +1,14 @@
 """Contradictions between the values of a config: one line each, with the key and the remedy.
 
-Each check takes a config of the right types, and the default config.
+Each check takes a config of the right types, the default config, and what the user states. Checks of one floor are in
+FLOOR/checks.py. Imported by the Snakefile: no slow imports.
 """
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
+from importlib import import_module
 
-from conveyor import RANGES
-from conveyor_pipeline.common import csv_table
 from conveyor_pipeline.config.entries import (
     ENTRIES,
     FIGURES,
@@ -20,7 +20,6 @@ from conveyor_pipeline.config.entries import (
     count_values,
     ends,
     fill_defaults,
-    resolve,
     values_of,
     variants,
 )
@@ -28,10 +27,9 @@ from conveyor_pipeline.config.errors import suggest_name, type_problems
 from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
 from conveyor_pipeline.config.model import MODEL, is_same_model
 from conveyor_pipeline.config.scales import faults_of_scales, to_si
+from conveyor_pipeline.config.stages import FLOORS
 from conveyor_pipeline.config.tables import NAMED, TABLES, entry_of, references, references_of
 from conveyor_pipeline.figures.titles import caption_file, package_of
-from conveyor_pipeline.machine.calibration import measurements
-from conveyor_pipeline.machine.excitation.limits import STATEMENT
 
 # Folders below results/ and figures/ that a prefix would share with the default config.
 RESERVED = {*NAMED, *(table.split("/")[0] for table in TABLES), "article", "benchmarks", "captions"}
@@ -39,12 +37,10 @@ RESERVED |= {"checks", "claims", "docs", "logs", "runs", "sections", "shards", "
 LARGEST_TABLE = 10_000_000  # rows or states of one job, which takes some hours
 MOST_SHARDS = 1000  # jobs of one sweep: Snakemake takes minutes to plan more
 MOST_STEPS = 10**9  # of one run with a fixed step, which takes some ten seconds
-# s, a multiple of all time steps of the comparison of methods (STEPS in scripts/conveyor_pipeline/study/accuracy/precision.py)
-LONGEST_STEP = 1e-3
 STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cycle
 
 
-def prefix(config: dict, defaults: dict) -> Iterator[str]:
+def prefix(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     if config["prefix"].lower() in RESERVED:  # macOS does not distinguish Logs from logs
         yield f"prefix = {config['prefix']!r} is a folder of the default results; give another name"
     if not config["prefix"] and not is_same_model(config["model"], defaults["model"]):
@@ -54,19 +50,19 @@ def prefix(config: dict, defaults: dict) -> Iterator[str]:
             f"model.{name} = {model[name]!r} differs from the paper's model, whose results have no prefix; give the "
             "config one, such as prefix: mine"
         )
-    for section, key in MEASURED_FILES:
+    for section, key in MEASURED_FILES.items():
         if key in config[section] and not config["prefix"]:
             yield f"{section}.{key} needs a folder for its results; give the config a prefix"
 
 
-def file_names(config: dict, defaults: dict) -> Iterator[str]:
-    for section, key in MEASURED_FILES:
+def file_names(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    for section, key in MEASURED_FILES.items():
         if set("{}") & set(path := config[section].get(key, "")):
             remedy = "rename the file or folder"
             yield f"{section}.{key} = {path!r} has braces, which Snakemake takes for a wildcard; {remedy}"
 
 
-def methods(config: dict, defaults: dict) -> Iterator[str]:
+def methods(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Settings of methods that exclude each other, and entries that make the same table."""
     for section in METHOD_SECTIONS:
         for name, entry in config[section].items():
@@ -80,7 +76,7 @@ def methods(config: dict, defaults: dict) -> Iterator[str]:
             yield f"{section}.{table} is the name of two tables, one of them made by `methods`; rename an entry"
 
 
-def axes(config: dict, defaults: dict) -> Iterator[str]:
+def axes(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     for section in ENTRIES:
         for name, entry in config[section].items():
             for axis in sorted(set(entry.get("axes", ())) & set(entry.get("model", ()))):
@@ -90,13 +86,9 @@ def axes(config: dict, defaults: dict) -> Iterator[str]:
                 if rows > LARGEST_TABLE:
                     limit = f"at most {LARGEST_TABLE:,} are computed; give a smaller num"
                     yield f"{section}.{name}.axes makes {rows:,} points or rows; {limit}"
-    for section, number in (("operating", "starts"), ("transit", "parts")):
-        runs = count_values(config[section]["acceleration"]) * config[section][number]
-        if runs > LARGEST_TABLE:
-            yield f"{section}.{number} makes {runs:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
 
 
-def friction(config: dict, defaults: dict) -> Iterator[str]:
+def friction(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Static friction below sliding friction, in the model and in all models that change one of them."""
     changed = {"model": config["model"]}
     for section in ENTRIES:
@@ -104,7 +96,11 @@ def friction(config: dict, defaults: dict) -> Iterator[str]:
             axes = {key: ends(axis) for key, axis in entry.get("axes", {}).items()}
             changed[f"{section}.{name}"] = entry.get("model", {}) | axes
     changed |= {f"{section}.model": config[section].get("model", {}) for section in ("orbits", "attractors")}
-    changed |= {f"companion.presets.{name}": model for name, model in config["companion"]["presets"].items()}
+    yield from faults_of_friction(config, changed)
+
+
+def faults_of_friction(config: dict, changed: dict[str, dict]) -> Iterator[str]:
+    """Static friction below sliding friction in models; `changed` are their differences from the config's, by key."""
     for key, own in changed.items():
         model = config["model"] | own
         if "static_friction" in model and own.keys() & {"friction", "static_friction"}:
@@ -117,7 +113,7 @@ def friction(config: dict, defaults: dict) -> Iterator[str]:
                 )
 
 
-def sweeps(config: dict, defaults: dict) -> Iterator[str]:
+def sweeps(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     rows = config["sharing"]["rows"]
     for name, entry in config["sweeps"].items():
         points, shards = count_points(entry["axes"]), count_shards(config, entry)
@@ -128,7 +124,7 @@ def sweeps(config: dict, defaults: dict) -> Iterator[str]:
             )
 
 
-def steps(config: dict, defaults: dict) -> Iterator[str]:
+def steps(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     for section in METHOD_SECTIONS:
         for name, entry in config[section].items():
             key = f"{section}.{name}.step" if "step" in entry else f"solver.step (of {section}.{name})"
@@ -154,90 +150,32 @@ def faults_of_step(key: str, step: float, duration: float, frequency: float) -> 
         yield f"{given} does not divide its duration of {duration:.10g} s; {remedy}"
 
 
-def perturbations(config: dict, defaults: dict) -> Iterator[str]:
-    for name, entry in config["estimates"].items():
-        perturb, epsilon = entry["perturb"], entry["epsilon"]
-        values = values_of(resolve(config, "estimates", name), perturb)
-        if "conveyor" in values:
-            remedy = "give z0 a height in m, or perturb another parameter"
-            yield f"estimates.{name}.perturb = {perturb!r} has no effect because z0 is the word conveyor; {remedy}"
-        elif any(abs(value + epsilon - value - epsilon) > 0.5 * epsilon for value in values):
-            yield f"estimates.{name}.epsilon = {epsilon!r} is lost in the rounding of {perturb}; give a larger one"
-
-
-def critical(config: dict, defaults: dict) -> Iterator[str]:
-    for name, entry in config["critical"].items():
-        for part in ("axes", "model"):
-            if "z0" in entry.get(part, ()):
-                yield f"critical.{name}.{part}.z0 is the scanned parameter; give its values as critical.{name}.scan"
-    name, single = config["sensitivity"]["critical"], by_methods(config)
-    entry = resolve(single, "critical", name) if name in single["critical"] else None
-    if entry and (set(entry["axes"]) != {"acceleration"} or entry["method"] != "event"):
-        yield f"sensitivity.critical = {name!r} must name an entry over acceleration alone, with the method event"
-
-
-def times(config: dict, defaults: dict) -> Iterator[str]:
-    for name, entry in config["signals"].items():
-        duration = resolve(config, "signals", name)["duration"]
-        if entry["times"]["stop"] > duration:
-            key = f"signals.{name}.times.stop = {entry['times']['stop']!r} s"
-            yield f"{key} is beyond the duration of {duration!r} s; take less, or give signals.{name}.duration"
-    cycle = 1.0 / min(config["model"]["frequency"], config["drive"]["bounds"]["frequency"][0])
-    for key, longest in (
-        ("transit.longest", config["transit"]["longest"]),
-        ("drive.search.longest", config["drive"]["search"]["longest"]),
-    ):
-        if longest < cycle:
-            reason = f"is shorter than the longest excitation cycle of model and drive.bounds ({cycle:.3g} s)"
-            yield f"{key} = {longest!r} s {reason}; give more"
-
-
-def orbits(config: dict, defaults: dict) -> Iterator[str]:
-    low, high = config["orbits"]["limits"]
-    for place, seed in enumerate(config["orbits"].get("seeds", [])):
-        if not low < seed["acceleration"] < high:
-            yield (
-                f"orbits.limits = {[low, high]!r} m/s² must hold the amplitude of orbits.seeds[{place}], "
-                f"{seed['acceleration']!r}, between them: its branch is followed to both sides"
-            )
-
-
-def dimensions(config: dict, defaults: dict) -> Iterator[str]:
-    for name, entry in config["dimensions"].items():
-        methods = {variant.get("method", config["solver"]["method"]) for variant in variants(name, entry).values()}
-        if entry["estimator"] != "paper" and methods != {"event"}:
-            yield (
-                f"dimensions.{name}.estimator = {entry['estimator']!r} follows the settled motion, which needs the "
-                "method event; give that method, or the estimator paper"
-            )
-
-
-def unknown_references(config: dict, defaults: dict) -> Iterator[str]:
-    """Names of tables, entries and presets that the config does not have."""
-    single = by_methods(config)
-    # A table that is no entry is known if it is in TABLES, or if the default config reads it.
+def known_tables(config: dict, defaults: dict) -> list[str]:
+    """The tables of a config, and those that are no entry but that the default config reads."""
     read = [reference for section in (*FIGURES, "claims") for reference in references_of(defaults[section])]
-    tables = [*references(single), *(reference for reference in read if reference.split("/")[0] not in NAMED)]
-    fitted = single["critical"]
-    used = [
+    return [*references(by_methods(config)), *(name for name in read if name.split("/")[0] not in NAMED)]
+
+
+def unknown_tables(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """Tables of figures and claims that the config does not have."""
+    tables = known_tables(config, defaults)
+    yield from faults_of_names(
         (f"{user}.{name}.{key}.{role}", table, tables)
         for user in (*FIGURES, "claims")
         for name, entry in config[user].items()
         for key in ("tables", "caption_tables")
         for role, table in entry.get(key, {}).items()
-    ]
-    used += [(f"scene_budget.reasons.{table}", table, tables) for table in config["scene_budget"]["reasons"]]
-    used += [(f"regressions.{name}.critical", one["critical"], fitted) for name, one in config["regressions"].items()]
-    used += [("sensitivity.critical", config["sensitivity"]["critical"], fitted)]
-    for user in ("companion", "map_check"):
-        used += [(f"{user}.maps[{place}]", name, single["sweeps"]) for place, name in enumerate(config[user]["maps"])]
-    used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
+    )
+
+
+def faults_of_names(used: Iterable[tuple[str, str, Iterable[str]]]) -> Iterator[str]:
+    """Unknown names; `used` has the key, the name, and the known names."""
     for key, name, known in used:
         if name not in known:
             yield f"{key} = {name!r} is unknown; {suggest_name(name, known)}"
 
 
-def figures(config: dict, defaults: dict) -> Iterator[str]:
+def figures(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     tables = by_methods(config)
     for section in FIGURES:
         for figure, entry in config[section].items():
@@ -249,7 +187,7 @@ def figures(config: dict, defaults: dict) -> Iterator[str]:
                     yield f"{section}.{figure} needs feeding, but {reference} has needs: vertical; remove it there"
 
 
-def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
+def unused_keys(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Tables and settings that the default config does not have: no plot script and no finding uses them."""
     parts = [
         (f"{section}.{name}", entry, defaults[section][name], ("tables", "caption_tables", "settings", "marks"))
@@ -274,65 +212,14 @@ def unused_keys(config: dict, defaults: dict) -> Iterator[str]:
                 yield f"{place}.{key}.{name} is missing; add it"
 
 
-def calibration(config: dict, defaults: dict) -> Iterator[str]:
-    """Settings that contradict each other, and faults in the file of measurements."""
-    own = config["calibration"]
-    if config["parts"].get("calibrated") and "measurements" not in own:
-        yield "parts.calibrated needs measurements; name the config with calibration.measurements as well"
-    if (path := own.get("measurements")) is None:
-        return
-    static, lowest = config["model"].get("static_friction"), own["ranges"]["friction"][0]
-    if "friction" in own["parameters"] and static is not None and static <= lowest:
-        yield (
-            f"model.static_friction = {static!r} leaves no friction to search, because calibration.ranges.friction "
-            f"begins at {lowest!r}; begin lower, or take friction out of calibration.parameters"
-        )
-    try:
-        text = csv_table.read_text(path, "calibration.measurements", measurements.MOST_BYTES)
-        known = measurements.wanted(RANGES)
-        table = csv_table.parse(text, path, known, measurements.HEADER_UNITS, measurements.EXAMPLE)
-        measurements.parse(table, {**own, "model": config["model"]}, RANGES)
-    except csv_table.TableError as error:
-        yield from error.faults
+CHECKS = (prefix, file_names, methods, axes, friction, sweeps, steps, unknown_tables, figures, unused_keys)
 
 
-def excitation(config: dict, defaults: dict, states_frequency: bool) -> Iterator[str]:
-    """Faults in the file of an accelerometer and in its signal.
-
-    states_frequency : whether the user has stated the frequency, also if it is the default
-    """
-    own, clean = config["excitation"], config["clean_drive"]
-    if (share := STATEMENT["share"]) not in clean["shares"]:
-        yield f"clean_drive.shares = {clean['shares']!r} lacks {share!r}, the share of the statement on chaos; add it"
-    if (path := own.get("measured")) is None:
-        return
-    # Only configs with such a file need NumPy, SciPy and pandas.
-    from conveyor_pipeline.machine.excitation import faults, reading
-
-    if "rate" in own and "time" in own.get("columns", {}):
-        yield "excitation has both rate and columns.time; state one of them"
-        return
-    model = config["model"]
-    stated = states_frequency or model["frequency"] != defaults["model"]["frequency"]
-    settings = {**own, "inclination": model["inclination"], "frequency": model["frequency"] if stated else None}
-    try:
-        text = csv_table.read_text(path, "excitation.measured", reading.MOST_BYTES)
-        table = csv_table.parse(text, path, reading.wanted(own), reading.HEADER_UNITS, reading.EXAMPLE)
-        faults.checked(table, settings)
-    except csv_table.TableError as error:
-        yield from error.faults
-
-
-def precision(config: dict, defaults: dict) -> Iterator[str]:
-    duration = config["precision"]["duration"]
-    if abs(duration / LONGEST_STEP - round(duration / LONGEST_STEP)) > 1e-9:
-        yield f"precision.duration = {duration!r} s is not a multiple of the longest time step, {LONGEST_STEP} s"
-
-
-CHECKS = (
-    *(prefix, file_names, methods, axes, friction, sweeps, steps, perturbations, critical, times, orbits, dimensions),
-    *(unknown_references, figures, unused_keys, calibration, precision),
-)
+@cache
+def all_checks() -> list[Callable[[dict, dict, dict], Iterator[str]]]:
+    """The checks above, and those of each floor. Their modules import this one."""
+    floors = [import_module(f"conveyor_pipeline.{floor}.checks") for floor in (*FLOORS, "pages")]
+    return [*CHECKS, *(check for floor in floors for check in floor.CHECKS)]
 
 
 @cache
@@ -340,10 +227,10 @@ def default_config() -> dict:
     return merge(*read_all(DEFAULT_FILES))
 
 
-def problems(config: dict, defaults: dict | None = None, states_frequency: bool = False) -> list[str]:
+def problems(config: dict, defaults: dict | None = None, stated: dict | None = None) -> list[str]:
     """All errors of a merged config, one line each; empty if there are none.
 
-    states_frequency : whether an overlay or the command line states model.frequency, also if it is the default
+    stated : what overlays and command line state, also if it is the default
     """
     if errors := type_problems(config):
         return errors
@@ -353,6 +240,4 @@ def problems(config: dict, defaults: dict | None = None, states_frequency: bool 
     # Converted values have the limits of their SI units, and a partial axis has what the default gives.
     if errors := type_problems(typed := to_si(typed)):
         return errors
-    lines = [line for check in CHECKS for line in check(typed, defaults)]
-    lines += excitation(typed, defaults, states_frequency)
-    return list(dict.fromkeys(lines))
+    return list(dict.fromkeys(line for check in all_checks() for line in check(typed, defaults, stated or {})))

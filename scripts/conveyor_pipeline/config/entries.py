@@ -4,6 +4,7 @@ import math
 
 from conveyor import TANGENTIAL
 from conveyor_pipeline.common.table_settings import without_tangential
+from conveyor_pipeline.config.stages import declared
 
 ENTRIES = ("sweeps", "estimates", "critical", "regressions", "dimensions", "signals", "spectra", "impacts")
 FIGURES = ("figures", "figures_on_request")
@@ -13,8 +14,8 @@ SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
 METHOD_SECTIONS = ("sweeps", "estimates", "critical", "dimensions", "signals", "spectra")
 # Sections whose tables depend on a tolerance, directly or through another table.
 TIGHTENED = (*METHOD_SECTIONS, "regressions")
-# Files of measurements that an overlay may name: section and key.
-MEASURED_FILES = (("calibration", "measurements"), ("excitation", "measured"))
+# Files of measurements that an overlay may name: the key in each section that has one.
+MEASURED_FILES = declared("MEASURED_FILES")
 # Ending of the name of a table with a tighter tolerance; the name of an entry cannot have a dot.
 TIGHTER = ".tighter"
 # Sections whose tables describe only the motion normal to the track.

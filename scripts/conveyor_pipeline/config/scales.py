@@ -1,6 +1,6 @@
 """Settings in the scales of the conveyor, keys `dimensionless`, converted to SI units.
 
-The stages operating and excitation state amplitudes as throw numbers, heights in g cos α/ω², velocities in g cos α/ω,
+Stages of the floor machine state amplitudes as throw numbers, heights in g cos α/ω², velocities in g cos α/ω,
 times in excitation cycles and frequencies over the model's, so that their defaults fit any conveyor. A value in SI
 units beside `dimensionless` replaces the converted one.
 """
@@ -12,12 +12,10 @@ from typing import Any
 from conveyor import normal_gravity
 from conveyor_pipeline.config.files import merge
 from conveyor_pipeline.config.schema import child, schema_at, unit_of
+from conveyor_pipeline.config.stages import declared
 
 # Where the config may have a key `dimensionless`.
-SCALED = (
-    *(("operating",), ("transit",), ("track",), ("clean_drive",)),
-    *(("advice", "changes"), ("drive", "bounds"), ("drive", "search")),
-)
+SCALED = [(section, *keys) for section, places in declared("SCALED").items() for keys in places]
 DIGITS = 4  # of converted values, which stand on axes and in texts
 
 

@@ -14,7 +14,7 @@ STAGES = {stage: f"conveyor_pipeline.{floor}.{stage}" for floor, stages in FLOOR
 SHARED = ("conveyor_pipeline.figures", "conveyor_pipeline.pages")
 
 
-def declared(mapping: str) -> dict:
+def declared(name: str) -> dict:
     """The entries of a mapping in the settings of all stages, such as SECTIONS; some stages lack it."""
     modules = [import_module(f"{package}.settings") for package in (*STAGES.values(), *SHARED)]
-    return {name: entry for module in modules for name, entry in getattr(module, mapping, {}).items()}
+    return {key: entry for module in modules for key, entry in getattr(module, name, {}).items()}

@@ -5,27 +5,23 @@ table expects the same settings, so a table that was made from other settings is
 settings only as long as it has its own records, which a copy of the results does not contain.
 """
 
-import itertools
-
 from conveyor_pipeline.common.table_settings import model_of
 from conveyor_pipeline.config.entries import ENTRIES, TIGHTER, resolve
 from conveyor_pipeline.config.stages import declared
-from conveyor_pipeline.study.accuracy.scenes import SCENES
-from conveyor_pipeline.study.accuracy.settings import BUDGETED, precision_settings
 
 # Tables that are not entries, and the function that returns the settings of each. A table that is missing here depends
 # on the model and, if there is one, on the section of its name.
 TABLES = declared("TABLE_SETTINGS")
-# Kinds with a table for each entry, or for each scene.
-SCENE_TABLES = ("precision", "precision_times")
-NAMED = (*ENTRIES, *SCENE_TABLES)
+# Kinds with a table for each of several names, and the function that returns the settings for a name.
+FAMILIES = declared("TABLE_FAMILIES")
+NAMED = (*ENTRIES, *FAMILIES)
 
 
 def references(config: dict) -> list[str]:
-    """All tables of a config that are entries, of a scene or in TABLES, as SECTION/NAME."""
+    """All tables of a config that are entries, in TABLES or in FAMILIES, as SECTION/NAME."""
     entries = [f"{section}/{name}" for section in ENTRIES for name in config[section]]
-    scenes = [f"{kind}/{scene}" for kind in SCENE_TABLES for scene in SCENES]
-    return [*entries, *TABLES, *scenes]
+    families = [f"{kind}/{name}" for kind, (names, _) in FAMILIES.items() for name in names]
+    return [*entries, *TABLES, *families]
 
 
 def references_of(entries: dict) -> list[str]:
@@ -35,7 +31,7 @@ def references_of(entries: dict) -> list[str]:
 
 
 def kind_of(reference: str) -> str:
-    """The kind of the table SECTION/NAME: its section if it is an entry or of a scene, else its name."""
+    """The kind of the table SECTION/NAME: its section if it is an entry or in a family, else its name."""
     section, name = reference.split("/")
     return section if section in NAMED else name
 
@@ -51,36 +47,11 @@ def settings_of(config: dict, reference: str) -> dict:
     section, name = reference.split("/")
     if reference in TABLES:
         return TABLES[reference](config)
-    if section in SCENE_TABLES:
-        return precision_settings(config, name)
+    if section in FAMILIES:
+        return FAMILIES[section][1](config, name)
     if section not in ENTRIES:
         return {**config.get(name, {}), "model": model_of(config)}
     return config[section][name] if section == "regressions" else resolve(config, section, name)
-
-
-def budgeted_tables(config: dict) -> dict[str, list[str]]:
-    """The tables of converged trajectories that each figure draws and that the section `scene_budget` covers."""
-
-    def is_budgeted(reference: str) -> bool:
-        is_converged = entry_of(config, reference).get("method", "event") == "event"
-        is_covered = reference.split("/")[0] in BUDGETED
-        return is_covered and is_converged
-
-    return {
-        figure: [reference for reference in dict.fromkeys(entry["tables"].values()) if is_budgeted(reference)]
-        for figure, entry in config["figures"].items()
-    }
-
-
-def budgeted_entries(config: dict) -> dict[str, dict]:
-    """The settings of all budgeted tables, each with an axis over the amplitude."""
-    entries = {}
-    for reference in itertools.chain(*budgeted_tables(config).values()):
-        entry = settings_of(config, reference)
-        if "axes" not in entry:
-            entry = {**entry, "axes": {"acceleration": entry["acceleration"]}, "duration": None}
-        entries[reference] = entry
-    return entries
 
 
 def tighter_claims(config: dict) -> dict[str, dict]:

@@ -14,7 +14,7 @@ from conveyor_pipeline.common.labelling import label_entry
 from conveyor_pipeline.common.steepness import steepness
 from conveyor_pipeline.common.templates import format_range
 from conveyor_pipeline.config.tables import TABLES
-from conveyor_pipeline.machine.operating import advice, chart, parts, regimes, shares, throws, transit
+from conveyor_pipeline.machine.operating import advice, chart, parts, regimes, settings, shares, throws, transit
 
 TEMPLATE = (ROOT / "workflow/templates/operating_chart.md").read_text()
 BOX = {
@@ -740,3 +740,10 @@ def test_conveyors_with_equal_groups_have_equal_motions_over_the_throw_number():
     for name in ("state", "period", "starts"):
         assert one[name].tolist() == other[name].tolist()
     assert ((one.textbook > 0.0) == (one.vertical > 1.0)).all()
+
+
+def test_differences_of_parts_that_no_overlay_states_are_assumed():
+    config = si_config()
+    assert settings.assumed_parts(config, {}) == ["friction", "damping", "stiffness", "mass", "acceleration"]
+    stated = {"prefix": "mine", "parts": {"friction": 0.15, "mass": 0.0}}
+    assert settings.assumed_parts(config, stated) == ["damping", "stiffness", "acceleration"]

@@ -1,6 +1,8 @@
 # Where to run a conveyor: the attractors that initial conditions in a box reach, the transit of parts along a track, and what
 # follows for the operator.
 
+from conveyor_pipeline.machine.operating.settings import assumed_parts
+
 # If the config says so, the parameters of parts are drawn from the samples of the calibration, around their best values. The overlay
 # exists only if the model explains the measurements.
 IS_CALIBRATED = config["parts"].get("calibrated")
@@ -127,7 +129,7 @@ rule operating_chart:
         benchmark_file("operating/chart")
     params:
         **stage("conveyor_pipeline.machine.operating.chart"),
-        assumed=ASSUMED_PARTS,
+        assumed=assumed_parts(config, loaded.stated),
     script:
         "../../../scripts/conveyor_pipeline/make.py"
 

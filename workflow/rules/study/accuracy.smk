@@ -1,7 +1,7 @@
 # How accurate, fast and robust the solver is, compared with other methods. Measured times are processor times, so that these jobs
 # can run beside others.
 from conveyor_pipeline.study.accuracy import scenes
-from conveyor_pipeline.config.tables import budgeted_entries, budgeted_tables
+from conveyor_pipeline.study.accuracy.budgeted import budgeted_entries, budgeted_tables
 
 # The tables of errors and of times, by scene.
 PRECISION = {

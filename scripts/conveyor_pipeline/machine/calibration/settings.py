@@ -60,3 +60,5 @@ def calibration_settings(config: dict) -> dict:
 TABLE_SETTINGS = {
     **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
 }
+# The key of the file of measurements that an overlay may name.
+MEASURED_FILES = {"calibration": "measurements"}

@@ -72,3 +72,7 @@ TABLE_SETTINGS = {
     "excitation/comparison": comparison_settings,
     "excitation/clean_drive": clean_drive_settings,
 }
+# The key of the file of measurements that an overlay may name.
+MEASURED_FILES = {"excitation": "measured"}
+# Where the config may have a key `dimensionless`: keys below each section, or () for the section itself.
+SCALED = {"clean_drive": ((),)}

@@ -155,6 +155,11 @@ def transit_settings(config: dict, without: Iterable[str] = ()) -> dict:
     return {**own, "spread": config["parts"], "model": model_of(config, without=(*INITIAL_CONDITION, *without))}
 
 
+def assumed_parts(config: dict, stated: dict) -> list[str]:
+    """The differences of parts that the user does not state, so that the defaults are assumed."""
+    return [name for name in config["parts"] if name not in (*stated.get("parts", {}), "seed")]
+
+
 def parts_settings(config: dict, without: Iterable[str] = ()) -> dict:
     """The settings of the transit table without its amplitudes, for tables that follow the same parts at others."""
     return {name: value for name, value in transit_settings(config, without).items() if name != "acceleration"}
@@ -181,4 +186,10 @@ TABLE_SETTINGS = {
     "operating/throws": partial(box_settings, "throws"),
     "operating/track": partial(box_settings, "track"),
     **dict.fromkeys(("operating/drive_front", "operating/drive_generations"), drive_settings),
+}
+# Where the config may have a key `dimensionless`: keys below each section, or () for the section itself.
+SCALED = {
+    **dict.fromkeys(("operating", "transit", "track"), ((),)),
+    "advice": (("changes",),),
+    "drive": (("bounds",), ("search",)),
 }

@@ -82,3 +82,5 @@ TABLE_SETTINGS = {
     "results/map_check": itemgetter("map_check"),
     "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),
 }
+# Kinds of tables with one table for each scene.
+TABLE_FAMILIES = dict.fromkeys(("precision", "precision_times"), (tuple(SCENES), precision_settings))

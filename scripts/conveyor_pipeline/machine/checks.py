@@ -1,0 +1,79 @@
+"""Contradictions in the sections of the floor machine, as in config/checks.py."""
+
+from collections.abc import Iterator
+
+from conveyor import RANGES
+from conveyor_pipeline.common import csv_table
+from conveyor_pipeline.config.checks import LARGEST_TABLE
+from conveyor_pipeline.config.entries import count_values
+from conveyor_pipeline.machine.calibration import measurements
+from conveyor_pipeline.machine.excitation.limits import STATEMENT
+
+
+def numbers_of_runs(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    for section, number in (("operating", "starts"), ("transit", "parts")):
+        runs = count_values(config[section]["acceleration"]) * config[section][number]
+        if runs > LARGEST_TABLE:
+            yield f"{section}.{number} makes {runs:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
+
+
+def durations(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    cycle = 1.0 / min(config["model"]["frequency"], config["drive"]["bounds"]["frequency"][0])
+    for key, longest in (
+        ("transit.longest", config["transit"]["longest"]),
+        ("drive.search.longest", config["drive"]["search"]["longest"]),
+    ):
+        if longest < cycle:
+            reason = f"is shorter than the longest excitation cycle of model and drive.bounds ({cycle:.3g} s)"
+            yield f"{key} = {longest!r} s {reason}; give more"
+
+
+def calibration(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """Settings that contradict each other, and faults in the file of measurements."""
+    own = config["calibration"]
+    if config["parts"].get("calibrated") and "measurements" not in own:
+        yield "parts.calibrated needs measurements; name the config with calibration.measurements as well"
+    if (path := own.get("measurements")) is None:
+        return
+    static, lowest = config["model"].get("static_friction"), own["ranges"]["friction"][0]
+    if "friction" in own["parameters"] and static is not None and static <= lowest:
+        yield (
+            f"model.static_friction = {static!r} leaves no friction to search, because calibration.ranges.friction "
+            f"begins at {lowest!r}; begin lower, or take friction out of calibration.parameters"
+        )
+    try:
+        text = csv_table.read_text(path, "calibration.measurements", measurements.MOST_BYTES)
+        known = measurements.wanted(RANGES)
+        table = csv_table.parse(text, path, known, measurements.HEADER_UNITS, measurements.EXAMPLE)
+        measurements.parse(table, {**own, "model": config["model"]}, RANGES)
+    except csv_table.TableError as error:
+        yield from error.faults
+
+
+def excitation(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """Faults in the file of an accelerometer and in its signal."""
+    own, clean = config["excitation"], config["clean_drive"]
+    if (share := STATEMENT["share"]) not in clean["shares"]:
+        yield f"clean_drive.shares = {clean['shares']!r} lacks {share!r}, the share of the statement on chaos; add it"
+    if (path := own.get("measured")) is None:
+        return
+    # Only configs with such a file need NumPy, SciPy and pandas.
+    from conveyor_pipeline.machine.excitation import faults, reading
+
+    if "rate" in own and "time" in own.get("columns", {}):
+        yield "excitation has both rate and columns.time; state one of them"
+        return
+    model = config["model"]
+    # Also if it is the default.
+    states_frequency = "frequency" in (stated.get("model") or {})
+    is_given = states_frequency or model["frequency"] != defaults["model"]["frequency"]
+    settings = {**own, "inclination": model["inclination"], "frequency": model["frequency"] if is_given else None}
+    try:
+        text = csv_table.read_text(path, "excitation.measured", reading.MOST_BYTES)
+        table = csv_table.parse(text, path, reading.wanted(own), reading.HEADER_UNITS, reading.EXAMPLE)
+        faults.checked(table, settings)
+    except csv_table.TableError as error:
+        yield from error.faults
+
+
+CHECKS = (numbers_of_runs, durations, calibration, excitation)

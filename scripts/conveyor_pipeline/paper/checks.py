@@ -1,0 +1,68 @@
+"""Contradictions in the sections of the floor paper, as in config/checks.py."""
+
+from collections.abc import Iterator
+
+from conveyor_pipeline.config.checks import faults_of_names
+from conveyor_pipeline.config.entries import by_methods, resolve, values_of, variants
+
+
+def perturbations(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    for name, entry in config["estimates"].items():
+        perturb, epsilon = entry["perturb"], entry["epsilon"]
+        values = values_of(resolve(config, "estimates", name), perturb)
+        if "conveyor" in values:
+            remedy = "give z0 a height in m, or perturb another parameter"
+            yield f"estimates.{name}.perturb = {perturb!r} has no effect because z0 is the word conveyor; {remedy}"
+        elif any(abs(value + epsilon - value - epsilon) > 0.5 * epsilon for value in values):
+            yield f"estimates.{name}.epsilon = {epsilon!r} is lost in the rounding of {perturb}; give a larger one"
+
+
+def critical(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    for name, entry in config["critical"].items():
+        for part in ("axes", "model"):
+            if "z0" in entry.get(part, ()):
+                yield f"critical.{name}.{part}.z0 is the scanned parameter; give its values as critical.{name}.scan"
+    name, single = config["sensitivity"]["critical"], by_methods(config)
+    entry = resolve(single, "critical", name) if name in single["critical"] else None
+    if entry and (set(entry["axes"]) != {"acceleration"} or entry["method"] != "event"):
+        yield f"sensitivity.critical = {name!r} must name an entry over acceleration alone, with the method event"
+
+
+def times(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    for name, entry in config["signals"].items():
+        duration = resolve(config, "signals", name)["duration"]
+        if entry["times"]["stop"] > duration:
+            key = f"signals.{name}.times.stop = {entry['times']['stop']!r} s"
+            yield f"{key} is beyond the duration of {duration!r} s; take less, or give signals.{name}.duration"
+
+
+def orbits(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    low, high = config["orbits"]["limits"]
+    for place, seed in enumerate(config["orbits"].get("seeds", [])):
+        if not low < seed["acceleration"] < high:
+            yield (
+                f"orbits.limits = {[low, high]!r} m/s² must hold the amplitude of orbits.seeds[{place}], "
+                f"{seed['acceleration']!r}, between them: its branch is followed to both sides"
+            )
+
+
+def dimensions(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    for name, entry in config["dimensions"].items():
+        methods = {variant.get("method", config["solver"]["method"]) for variant in variants(name, entry).values()}
+        if entry["estimator"] != "paper" and methods != {"event"}:
+            yield (
+                f"dimensions.{name}.estimator = {entry['estimator']!r} follows the settled motion, which needs the "
+                "method event; give that method, or the estimator paper"
+            )
+
+
+def unknown_names(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """Entries and claims that the config does not have."""
+    fitted = by_methods(config)["critical"]
+    used = [(f"regressions.{name}.critical", one["critical"], fitted) for name, one in config["regressions"].items()]
+    used += [("sensitivity.critical", config["sensitivity"]["critical"], fitted)]
+    used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
+    yield from faults_of_names(used)
+
+
+CHECKS = (perturbations, critical, times, orbits, dimensions, unknown_names)
