@@ -219,7 +219,7 @@ def put(folder, text: str) -> None:
     page.write_text(text, encoding="utf-8")
     style = folder.parent / "site.css"
     style.write_text("", encoding="utf-8")
-    site.gather(str(folder), [str(page)], str(style), [], {"": []})
+    site.gather(str(folder), {"": [str(page)]}, str(style), [], {"": []})
 
 
 def test_a_broken_link_is_an_error(source, tmp_path):

@@ -1,4 +1,4 @@
-"""The config: the sections of all stages, which scripts/STAGE/settings.py declares, and what they share."""
+"""The config: the sections of all stages, which the module settings.py of each stage declares, and what they share."""
 
 from pydantic import ConfigDict, TypeAdapter
 from typing_extensions import TypedDict

@@ -33,6 +33,6 @@ def typeset(text: str, frame: str) -> bytes:
 
 
 def make(frame: str, **arguments: Any) -> dict[str, str | bytes]:
-    """The text of the article, for which `arguments` are those of docs.pages.make, and its PDF."""
+    """The text of the article, for which `arguments` are those of pages.make, and its PDF."""
     (text,) = pages.make(**arguments)
     return {"text": text, "pdf": typeset(text, frame)}

@@ -1,6 +1,6 @@
 """README, article, site and metadata from their templates, with the same facts in the same words.
 
-A template is Markdown (or YAML) with Jinja fields. It can use the facts of docs.facts and these names:
+A template is Markdown (or YAML) with Jinja fields. It can use the facts of facts.py and these names:
 
     figures           titles, sections, captions and labels of all figures, by name
     statements        the claims, with a margin and an uncertainty of each quantity
@@ -150,7 +150,7 @@ def make(
 
     Parameters
     ----------
-    facts : as docs.facts makes them, as JSON
+    facts : as facts.py makes them, as JSON
     captions : of all figures, in order
     uncertainty : changes of the claims with tighter tolerances, as JSON
     proved, columns : for templates, as above

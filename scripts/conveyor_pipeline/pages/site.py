@@ -13,7 +13,12 @@ from conveyor_pipeline.pages import pictures
 SETTINGS = {
     "project": "Dynamics of a vibratory conveyor",
     "html_title": "Dynamics of a vibratory conveyor",
-    "extensions": ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "docs.sphinx_extension"],
+    "extensions": [
+        "myst_parser",
+        "sphinx.ext.autodoc",
+        "sphinx.ext.napoleon",
+        "conveyor_pipeline.pages.sphinx_extension",
+    ],
     "myst_enable_extensions": ["colon_fence", "dollarmath"],
     "myst_heading_anchors": 3,
     "html_theme": "furo",
