@@ -8,6 +8,8 @@ import random
 import signal
 import subprocess
 import sys
+import tomllib
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 import numpy as np
@@ -435,3 +437,10 @@ def test_the_larger_exponent_is_the_first_one():
 def test_infinite_points_of_single_precision_are_refused():
     with pytest.raises(ValueError, match="points = inf is outside"):
         conveyor.box_dimension(np.full((50, 2), np.inf, np.float32))
+
+
+def test_pip_installs_the_library_alone():
+    project = Path(conveyor.__file__).parents[2] / "pyproject.toml"
+    patterns = tomllib.loads(project.read_text())["tool"]["setuptools"]["packages"]["find"]["include"]
+    names = ("conveyor", "conveyor.solver", "conveyor_pipeline", "conveyor_pipeline.common")
+    assert [name for name in names if any(fnmatchcase(name, pattern) for pattern in patterns)] == list(names[:2])
