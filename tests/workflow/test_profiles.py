@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from project import ROOT
 
-from conveyor_pipeline.paper.claims import check_results
+from conveyor_pipeline.common import check_results
 
 SBATCH = """#!/bin/sh
 echo "$@" >> "{calls}"

@@ -5,9 +5,9 @@ import signal
 
 from conveyor_pipeline.figures.titles import caption_file, package_of, title_of
 from conveyor_pipeline.common.source_hash import source_hash
-from conveyor_pipeline.config.entries import ENTRIES, MEASURED_FILES, count_points, count_shards
+from conveyor_pipeline.config.entries import ENTRIES
 from conveyor_pipeline.config.files import DEFAULT_FILES, ROOT
-from conveyor_pipeline.config.tables import kind_of, references_of, settings_of
+from conveyor_pipeline.config.tables import kind_of, references, references_of, settings_of
 
 # Keep pyarrow's allocator from huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more
 # memory with them.
@@ -22,6 +22,14 @@ PREFIX = config["prefix"] and f"{config['prefix']}/"
 # Not workflow.cores, which fails without the option --cores, as in --report and --unlock.
 CORES = workflow.resource_settings.cores or 1
 THREADS = 2  # of a job with threads, so that a small machine runs it, and a large one several of them
+
+# What the floors add to.
+FLOOR_FILES = []  # files of the target `all`
+NO_FIGURES = {}  # figures that this config cannot make, with the reasons
+BUILT = []  # files of a build besides figures, captions and their tables
+TESTED = []  # beginnings of the names of tables that tests of the results read
+TIMED = []  # kinds of tables with measured times, which differ from build to build
+TIMED_PAGES = []  # pages with measured times
 
 
 # -- names of files ----------------------------------------------------------------------------------------------------
@@ -92,21 +100,13 @@ def caption_files(figures=None):
     return [result(f"captions/{figure}.rst") for figure in (config["figures"] if figures is None else figures)]
 
 
-def section_in_report(wildcards):
-    """The category of a figure in Snakemake's report."""
-    section = FIGURES[wildcards.figure]["section"]
-    return f"Section {section}" if wildcards.figure in PAPER_FIGURES else f"Section {section}, beyond the paper"
-
-
-def labels_in_report(wildcards):
-    """The labels of a figure in Snakemake's report, which takes {name} for a wildcard."""
-    title = title_of(wildcards.figure)
-    return {"figure": wildcards.figure, "title": title.replace("{", "{{").replace("}", "}}")}
-
-
 def one_of(names):
     """A wildcard constraint: one of these names."""
     return "|".join(map(re.escape, names)) or "(?!)"
+
+
+# Tests of the results, which apply to the paper's conveyor only.
+RESULT_TESTS = sources("tests/results/**/*.py") if IS_PAPER else []
 
 
 # -- params ------------------------------------------------------------------------------------------------------------
@@ -147,90 +147,15 @@ def check_paper(target):
         )
 
 
-def tables_of_claims(claims):
-    """The tables that claims read; an error for another conveyor than the paper's."""
-    check_paper("the test of the paper's claims")
-    return [table(reference) for reference in references_of(claims)]
-
-
-def tables_of_facts(wildcards):
-    """The tables behind the text of README, article and site; an error for another conveyor."""
-    check_paper("the text of README, article and site")
-    return FACTS
-
-
 def expected(wildcards, input):
     """A param: kind and settings that each input table must have, so that no other table is read in its place."""
     references = {file: reference_of(file) for file in input if file.endswith(".parquet")}
     return {file: [kind_of(name), settings_of_table(name)] for file, name in references.items()}
 
 
-# -- sweeps ------------------------------------------------------------------------------------------------------------
-
-SHARDS = {name: count_shards(config, entry) for name, entry in config["sweeps"].items()}
-
-
-def shards_of_sweep(wildcards):
-    """All shards, in the order of their rows."""
-    return [table(f"shards/{wildcards.name}/{shard}") for shard in range(SHARDS[wildcards.name])]
-
-
-def no_input_of_shard(wildcards):
-    """No input; an error for a shard that the sweep does not have."""
-    count = SHARDS[wildcards.name]
-    if int(wildcards.shard) >= count:
-        raise WorkflowError(
-            f"sweeps.{wildcards.name} has no shard {wildcards.shard}: with this config, it has {count} from 0 on"
-        )
-    return []
-
-
-def points_of_sweep(wildcards):
-    """Number of rows of a sweep."""
-    return count_points(config["sweeps"][wildcards.name]["axes"])
-
-
-def rows_of_shard(wildcards):
-    """First row of a shard, and the row after its last one. A sweep of one shard has no number of it."""
-    rows = config["sharing"]["rows"]
-    first = int(wildcards.get("shard", 0)) * rows
-    return [first, min(first + rows, points_of_sweep(wildcards))]
-
-
-# -- measured files ----------------------------------------------------------------------------------------------------
-
-MEASURED = {section: config[section].get(key) for section, key in MEASURED_FILES.items()}
-# Errors for a config without such a file.
-NOT_MEASURED = {
-    "calibration": "a calibration needs measured velocities; give an overlay with a prefix that names a CSV file of them, relative "
-    "to itself: calibration: {measurements: FILE.csv}",
-    "excitation": "a measured drive needs the file of an accelerometer; give an overlay with a prefix that names a CSV file, relative "
-    "to itself: excitation: {measured: FILE.csv}",
-}
-
-
-def measured_file(section):
-    """Input: the measured file that a section names; an error for a config without one."""
-
-    def file(wildcards):
-        if not MEASURED[section]:
-            raise WorkflowError(NOT_MEASURED[section])
-        return MEASURED[section]
-
-    return file
-
-
-# -- figures and claims ------------------------------------------------------------------------------------------------
+# -- figures ---------------------------------------------------------------------------------------------------------
 
 FIGURES = config["figures"] | config["figures_on_request"]
-# Of the target `paper`.
-PAPER_FIGURES = [figure for figure in config["figures"] if re.fullmatch(r"fig\d+", figure)]
-# Figures that this config cannot make, with the reasons. A figure of a measured file has the name of the section that names this file.
-NO_FIGURES = {section: reason for section, reason in NOT_MEASURED.items() if not MEASURED[section]}
-if config["model"].get("harmonics"):
-    NO_FIGURES["sensitivity"] = (
-        "its bifurcations are solved in dimensionless groups, which a plate with harmonics has not"
-    )
 
 
 def settings_of_figure(figure):

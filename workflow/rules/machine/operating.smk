@@ -9,8 +9,8 @@ IS_CALIBRATED = config["parts"].get("calibrated")
 CALIBRATED_PARTS = tables_of("calibration/samples", "calibration/parameters") if IS_CALIBRATED else {}
 CALIBRATED_OVERLAY = [result("calibrated.yaml")] if IS_CALIBRATED else []
 # Of the target `machine`, for any conveyor.
-MACHINE_FIGURES = listed_figures("operating", "basin_stability", "transit", "track")
-MACHINE_FILES = [result("operating/chart.md"), *figure_files(MACHINE_FIGURES), *caption_files(MACHINE_FIGURES)]
+OPERATING_FIGURES = listed_figures("operating", "basin_stability", "transit", "track")
+OPERATING_FILES = [result("operating/chart.md"), *figure_files(OPERATING_FIGURES), *caption_files(OPERATING_FIGURES)]
 
 
 rule operating:

@@ -1,5 +1,5 @@
-# The paper's statements with their verdicts, and the tests of the results.
-from conveyor_pipeline.config.tables import references, tighter_claims
+# The paper's statements with their verdicts.
+from conveyor_pipeline.config.tables import tighter_claims
 
 # Each claim alone.
 CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
@@ -13,14 +13,12 @@ def findings_of(claims):
 
 CLAIM_FILES = [table("results/claims"), result("claims.md")] if IS_PAPER else []
 TIGHTER_CLAIMS = tighter_claims(config)
-# Tests of the results, which apply to the paper's conveyor only, and the tables that they read.
-RESULT_TESTS = sources("tests/results/*.py") if IS_PAPER else []
-CHECKED = [result("checked.txt")] if RESULT_TESTS else []
-TESTED_TABLES = [
-    reference
-    for reference in references(config)
-    if reference.startswith(("orbits/", "lyapunov/", "precision/", "results/")) and RESULT_TESTS
-]
+
+
+def tables_of_claims(claims):
+    """The tables that claims read; an error for another conveyor than the paper's."""
+    check_paper("the test of the paper's claims")
+    return [table(reference) for reference in references_of(claims)]
 
 
 rule claims:
@@ -88,29 +86,5 @@ rule uncertainty:
         ),
         settings={"claims": TIGHTER_CLAIMS},
         references=references_of(TIGHTER_CLAIMS),
-    script:
-        "../../../scripts/conveyor_pipeline/make.py"
-
-
-rule check_results:
-    """Tests of the results."""
-    input:
-        map(table, TESTED_TABLES),
-        figure_files(),
-        RESULT_TESTS,
-    output:
-        checked=result("checked.txt"),
-    log:
-        log_file("checks/results"),
-    benchmark:
-        benchmark_file("checks/results")
-    threads: THREADS
-    resources:
-        mem_mb=1500,
-    params:
-        **stage("conveyor_pipeline.paper.claims.check_results"),
-        results=lambda wildcards, output: os.path.dirname(output.checked),
-        figures=config["figures"],
-        tests=lambda wildcards: source("tests/results"),
     script:
         "../../../scripts/conveyor_pipeline/make.py"

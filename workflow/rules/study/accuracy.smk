@@ -7,8 +7,6 @@ from conveyor_pipeline.study.accuracy.budgeted import budgeted_entries, budgeted
 PRECISION = {
     f"{scene}{ending}": table(f"precision{ending}/{scene}") for scene in scenes.SCENES for ending in ("", "_times")
 }
-# Of the target `study`.
-STUDY_FIGURES = listed_figures("work_precision", "stability", "scene_budget", "settling")
 
 
 # These jobs start early, because each scene keeps one core busy for a long time.
