@@ -50,7 +50,7 @@ def test_the_notice_comes_once_and_not_from_the_cache(run):
 
 
 def test_the_notice_and_the_time_are_in_the_log_of_a_rule(run, tmp_path):
-    code = f"from pipeline.rule_log import logged\nwith logged('{tmp_path}/rule.log'):\n"
+    code = f"from conveyor_pipeline.common.rule_log import logged\nwith logged('{tmp_path}/rule.log'):\n"
     run(code + ROOT_OF_LINE.replace("\n", "\n    "))
     assert (tmp_path / "rule.log").read_text() == f"{NOTICE}\n"
 

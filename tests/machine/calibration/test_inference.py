@@ -9,6 +9,7 @@ import pytest
 from project import ROOT, read_config
 
 from conveyor.parameters import RANGES
+from conveyor_pipeline.common import csv_table
 from conveyor_pipeline.config.tables import settings_of
 from conveyor_pipeline.machine.calibration import model_check, page, prediction
 from conveyor_pipeline.machine.calibration.calibrate import calibrate, make
@@ -23,7 +24,7 @@ from conveyor_pipeline.machine.calibration.inference import (
     search,
     summarize_parameters,
 )
-from conveyor_pipeline.machine.calibration.measurements import parse
+from conveyor_pipeline.machine.calibration.measurements import HEADER_UNITS, parse, wanted
 from conveyor_pipeline.machine.calibration.model_check import compare_alternatives
 from conveyor_pipeline.machine.calibration.search_space import bounds_of
 from conveyor_pipeline.machine.calibration.synthetic import csv_text, measure
@@ -63,7 +64,8 @@ def measured(factor=1.0, **undeclared):
     """Measurements over 0.3 s; `factor` multiplies every second velocity."""
     rows = measure(MODEL | CONTACT | undeclared, AMPLITUDES, SETTINGS, 0.02, np.random.default_rng(4), duration=0.3)
     rows = [(one, velocity * (factor if place % 2 else 1.0)) for place, (one, velocity) in enumerate(rows)]
-    return parse(csv_text(rows, "synthetic", duration=0.3, before=0.3), "mine.csv", SETTINGS, RANGES)
+    text = csv_text(rows, "synthetic", duration=0.3, before=0.3)
+    return parse(csv_table.parse(text, "mine.csv", wanted(RANGES), HEADER_UNITS, ""), SETTINGS, RANGES)
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -320,6 +320,7 @@ def test_faults_end_the_run_before_any_job(overlay, message, tmp_path):
 
 def test_configs_without_a_file_need_no_slow_packages():
     """Every Snakemake process imports the checks."""
-    code = "import sys, conveyor_pipeline.config as c; c.problems(c.checks.default_config()); print('scipy' in sys.modules)"
-    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    code = "import sys; from conveyor_pipeline.config import checks; checks.problems(checks.default_config())"
+    code += "; print('scipy' in sys.modules)"
+    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT / "scripts", capture_output=True, text=True, check=True)
     assert run.stdout.split() == ["False"]

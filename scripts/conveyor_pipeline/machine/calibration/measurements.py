@@ -166,7 +166,7 @@ def read_values(table: Any, known: Mapping) -> tuple[dict[str, Any], list[tuple[
 
 
 def parse(table: Any, settings: Mapping[str, Any], ranges: Mapping) -> list[Measurement]:
-    """The measurements in a table of pipeline.csv_table, whose error names every fault with file and line.
+    """The measurements in a table of common.csv_table, whose error names every fault with file and line.
 
     settings : `parameters`, which the measurements must determine, and the `model`, from which a row may differ
     ranges : admissible interval of each parameter of the model; other modules import this one without the library

@@ -285,7 +285,7 @@ def first_faults(subject: Any, groups: tuple) -> list[tuple[int | None, str]]:
 
 
 def checked(table: Any, settings: Mapping[str, Any]) -> Recording:
-    """The recording in a table of pipeline.csv_table, whose error names all faults with file and line.
+    """The recording in a table of common.csv_table, whose error names all faults with file and line.
 
     settings : as in `parse`, and optionally `inclination` (rad) of the track and the stated `frequency` (Hz)
     """

@@ -169,7 +169,7 @@ def turn(readings: np.ndarray, mount: float) -> np.ndarray:
 
 
 def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
-    """The recording in a table of pipeline.csv_table; its error names every fault with file and line.
+    """The recording in a table of common.csv_table; its error names every fault with file and line.
 
     settings : `mount` (rad), the angle of the sensor, and optionally `unit`, `columns`, `time_unit` and `rate` (Hz)
     """
