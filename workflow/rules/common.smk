@@ -170,6 +170,12 @@ def figure_modules(figure, part="figures"):
     return [f"{package.replace('.', '/')}/{figure}"] if package else []
 
 
+def findings_of(claims):
+    """The modules that compute the findings of claims, as paths below scripts/ without ".py"."""
+    names = sorted({claim["finding"].split(".")[0] for claim in claims.values()})
+    return [module for name in names for module in figure_modules(name, "claims")]
+
+
 def caption_scripts(wildcards):
     """The script that computes numbers of a caption, if there is one."""
     return figure_modules(wildcards.figure, "caption_numbers")

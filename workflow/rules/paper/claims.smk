@@ -3,14 +3,6 @@ from conveyor_pipeline.config.tables import tighter_claims
 
 # Each claim alone.
 CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
-
-
-def findings_of(claims):
-    """The modules of their findings, as paths below scripts/ without ".py"."""
-    names = sorted({claim["finding"].split(".")[0] for claim in claims.values()})
-    return [module for name in names for module in figure_modules(name, "claims")]
-
-
 CLAIM_FILES = [table("results/claims"), result("claims.md")] if IS_PAPER else []
 TIGHTER_CLAIMS = tighter_claims(config)
 
