@@ -3,8 +3,12 @@
 import doctest
 import re
 
+import matplotlib
+import pandas as pd
 import pytest
 from project import ROOT
+
+from conveyor import Conveyor, classify, parameter_table
 
 PAGES = ("tutorial", "library")
 
@@ -23,3 +27,31 @@ def test_the_machine_of_the_tutorial_is_the_one_whose_chart_it_shows():
     page = (ROOT / "docs/guides/tutorial.md").read_text(encoding="utf-8")
     (overlay,) = re.findall(r"^```yaml\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     assert overlay == (ROOT / "docs/guides/feeder.yaml").read_text(encoding="utf-8")
+
+
+def code_of(page: str) -> list[str]:
+    """The Python code on a page."""
+    text = (ROOT / f"docs/guides/{page}.md").read_text(encoding="utf-8")
+    return re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+
+
+def test_the_module_of_the_new_table_fills_its_columns():
+    names = {}
+    exec(code_of("add_table")[0], names)
+    columns = names["make"]({"model": {"damping": 0.2}})
+    assert list(columns) == [field.name for field in names["TABLES"]["from_rest"]]
+    assert set(columns["status"]) == {"ok"}
+
+
+def test_the_map_of_states_is_drawn(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    matplotlib.use("agg")
+    parameters = parameter_table(Conveyor(), psi0=[[0.0], [1.0], [2.0]], z0=[0.0, 3e-4])
+    (tmp_path / "results/sweeps").mkdir(parents=True)
+    table = pd.DataFrame({"psi0": parameters["psi0"].ravel(), "z0": parameters["z0"].ravel()})
+    table.assign(state=classify(parameters).state.ravel()).to_parquet("results/sweeps/states.parquet")
+    (code,) = [code for code in code_of("own_sweep") if "pcolormesh" in code]
+    names = {}
+    exec(code, names)
+    assert names["states"].shape == (2, 3)
+    assert (tmp_path / "states.png").is_file()
