@@ -20,6 +20,7 @@ from conveyor_pipeline.config import canonical
 from conveyor_pipeline.config.entries import ENTRIES
 from conveyor_pipeline.config.files import DEFAULT_FILES
 from conveyor_pipeline.config.files import merge as merged
+from conveyor_pipeline.config.stages import FLOORS
 
 ROOT = Path(__file__).resolve().parents[1]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "scripts")
@@ -63,16 +64,17 @@ def small_config() -> dict:
     """The project's config with FIGURES and their tables only, on coarse axes."""
     config = merged(read_config(), TINY)
     config["figures"] = {figure: config["figures"][figure] for figure in FIGURES}
-    config["companion"]["maps"] = config["map_check"]["maps"] = ["amplitudes"]
-    config["map_check"]["points"] = 4
+    config["companion"]["maps"] = ["amplitudes"]
     config["uncertainty"]["claims"] = []
     tables = ("tables", "caption_tables")
     used = {table for entry in config["figures"].values() for key in tables for table in entry.get(key, {}).values()}
     used.add(f"critical/{config['sensitivity']['critical']}")
     for section in (*ENTRIES, "claims", "figures_on_request"):
         config[section] = {name: entry for name, entry in config[section].items() if f"{section}/{name}" in used}
-    reasons = config["scene_budget"]["reasons"]
-    config["scene_budget"]["reasons"] = {table: reason for table, reason in reasons.items() if table in used}
+    if "study" in FLOORS:
+        config["map_check"] = {"maps": ["amplitudes"], "points": 4}
+        reasons = config["scene_budget"]["reasons"]
+        config["scene_budget"]["reasons"] = {table: reason for table, reason in reasons.items() if table in used}
     return config
 
 

@@ -15,9 +15,14 @@ PREFIX = [] if RESULTS.name == "results" else [RESULTS.name]
 FIGURES = RESULTS.parents[len(PREFIX)].joinpath("figures", *PREFIX)
 
 
+def defaults(section: str) -> dict[str, dict]:
+    """The entries of a section in the defaults of all floors."""
+    files = sorted((ROOT / "config/defaults").glob(f"*/{section}.yaml"))
+    return {name: entry for file in files for name, entry in yaml.safe_load(file.read_text())[section].items()}
+
+
 def entries() -> dict[str, dict]:
     """The entries of the figures by their names."""
     if "CONVEYOR_FIGURES" in os.environ:
         return json.loads(os.environ["CONVEYOR_FIGURES"])
-    files = sorted((ROOT / "config/defaults").glob("*/figures.yaml"))
-    return {name: entry for file in files for name, entry in yaml.safe_load(file.read_text())["figures"].items()}
+    return defaults("figures")
