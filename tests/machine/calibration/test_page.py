@@ -144,7 +144,10 @@ def test_an_alternative_whose_search_has_not_converged_is_no_verdict():
     template = (ROOT / "workflow/templates/calibration.md").read_text(encoding="utf-8")
     text = page.make(template, **found, measurements="acceleration,velocity\n", prefix="mine")
     assert "| phase_shift | 0 rad | – | not known: its search has not converged |" in text
-    assert "**The model explains" in text
+    first = text.partition("## Parameters")[0]
+    assert "**The model explains" in first
+    assert "- What is not known: whether another `phase_shift` than the stated one explains" in first
+    assert "What is not known" not in first_screen()
 
 
 def test_a_model_that_needs_many_mistakes_says_so_first():
