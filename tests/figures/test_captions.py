@@ -7,28 +7,18 @@ import sys
 import numpy as np
 import pandas as pd
 import pytest
+from filled_captions import caption, template_of
 from jinja2 import UndefinedError
 from project import ROOT, read_config
 from prose import typed
 
 from conveyor_pipeline.figures import captions
-from conveyor_pipeline.figures.titles import caption_file, split_title, title_of
+from conveyor_pipeline.figures.titles import title_of
 from conveyor_pipeline.paper.caption_numbers import bifurcation
 from conveyor_pipeline.paper.sensitivity.changes import UNEVEN
 
 CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
-
-
-def template_of(name: str) -> str:
-    """The template of a caption, without the title."""
-    return split_title(caption_file(name).read_text(encoding="utf-8"))[1]
-
-
-def caption(name: str, settings: dict | None = None, *, paper: bool = True, **tables: pd.DataFrame) -> str:
-    """The caption of a figure from its own template, on one line."""
-    template = template_of(name)
-    return " ".join(captions.caption(template, name, tables, settings or {}, paper).split())
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -134,14 +124,6 @@ def test_chaos_before_the_accumulation_is_mentioned(monkeypatch):
     assert "No initial condition was found to lead to a stable orbit of up to 4 cycles" in empty
 
 
-def test_tables_with_a_visible_variant_count_once():
-    names = ("sweeps/a", "sweeps/a", "sweeps/b")
-    table = pd.DataFrame({"table": names, "variant": "rigid part", "tolerance": np.nan, "visible": [True, True, False]})
-    half = table.assign(variant="half the time", visible=False)
-    text = caption("scene_budget", budget=pd.concat([table, half]))
-    assert "visible in 1 of 2 tables, half the time in 0 of 2." in text
-
-
 def test_a_map_states_its_undecided_share_and_the_key_that_reduces_it():
     table = pd.DataFrame({"state": ["first", "first", "undecided", "second"] * 5})
     text = caption("fig12", paper=False, map=table)
@@ -194,38 +176,6 @@ def test_a_track_that_is_too_steep_is_named():
         assert ("slides away faster and faster" in " ".join(text.split())) == steep
 
 
-def test_grey_parts_of_the_map_of_tracks_are_explained():
-    table = pd.DataFrame({"inclination": [0.1, 0.2], "state": "first", "mean_velocity": [0.1, np.nan]})
-    table.attrs |= {"acceleration": 40.0, "starts": 16}
-    climbs = caption("track", track=table.assign(status="ok"))
-    assert "rises by 5.7°" in climbs and "grey" not in climbs
-    assert "too steep" in caption("track", track=table.assign(status=["ok", "slides away"]))
-    missing = caption("track", track=table.assign(status=["ok", "no initial condition leads to the state"]))
-    assert "Where the map of the first state is grey, none of 16 random initial conditions leads to it." in missing
-    assert "too steep" not in missing
-    other = table.assign(state="second", mean_velocity=np.nan, status="no initial condition leads to the state")
-    both = pd.concat([table.assign(status="ok"), other])
-    both.attrs = table.attrs
-    absent = "On none of these tracks does one of 16 random initial conditions lead to the second state."
-    assert absent in caption("track", track=both)
-
-
-def test_the_operating_chart_says_how_many_amplitudes_a_limit_leaves_open():
-    rows = {"acceleration": [30.0, 30.0, 40.0, 50.0], "vertical": 1.0, "state": "first", "starts": 4, "share": 1.0}
-    rows |= {"stderr": 0.0, "mean_velocity": [0.1, np.nan, 0.1, np.nan], "status": ["ok", "state not decided"] * 2}
-    shares = pd.DataFrame(rows)
-    shares.attrs = {"starts": 4, "resolution": 0.2, "height": [0.0, 1e-3], "vz0": [-0.2, 0.2]}
-    shares.attrs["psi0"] = [0.0, 6.28]
-    regimes = pd.DataFrame()
-    for name, tables in (("basin_stability", {}), ("operating", {"regimes": regimes})):
-        text = caption(name, shares=shares, **tables)
-        assert "At 2 of 3 amplitudes, the search for a state or a mean velocity ended before it was known." in text
-        assert "``solver.settling``" in text
-        slides = shares.assign(status=["ok", "slides away"] * 2)
-        slides.attrs = shares.attrs
-        assert "ended" not in caption(name, shares=slides, **tables)
-
-
 def test_states_change_at_a_critical_height_if_the_first_state_ends():
     table = pd.DataFrame({"acceleration": 40.0, "state": ["chaos", "undecided", "second", "chaos"]})
     assert "no critical height" in caption("fig09", converged=table)
@@ -265,37 +215,3 @@ def test_points_that_are_not_found_again_are_counted():
     assert "left out: 2 that were not found again, 1 whose two sides differ" in text
     none = changes.assign(kind="critical_amplitude")
     assert "There is no change to show" in caption("sensitivity", changes=none, **tables)
-
-
-def test_an_empty_map_of_tracks_is_explained():
-    table = pd.DataFrame({"inclination": [0.1, 0.2], "state": "first", "mean_velocity": np.nan})
-    table.attrs |= {"acceleration": 40.0, "starts": 16}
-    none = "no initial condition leads to the state"
-    text = caption("track", track=table.assign(status=none))
-    assert "On these tracks, none of 16 random initial conditions leads to a periodic motion." in text
-    assert "On the remaining tracks" in caption("track", track=table.assign(status=[none, "slides away"]))
-    text = caption("track", track=table.assign(status="slides away"))
-    assert "initial conditions" not in text and "grey" not in text
-
-
-def test_a_search_that_ended_early_does_not_rule_out_that_parts_climb():
-    table = pd.DataFrame({"inclination": [0.1, 0.2, 0.3, 0.4], "state": "first", "mean_velocity": -0.1})
-    table.attrs |= {"acceleration": 40.0, "starts": 16}
-    assert "Parts climb on none of these tracks." in caption("track", track=table.assign(status="ok"))
-    text = caption("track", track=table.assign(status=["ok", "ok", "ok", "not all initial conditions settled"]))
-    assert "At 25 % of the inclinations, the search ended before all initial conditions had settled." in text
-    assert "solver.settling" in text
-    assert "No state that was found climbs." in text and "Parts climb on none" not in text
-
-
-def test_the_largest_share_of_parts_that_move_back_is_named_although_runs_failed_at_one_amplitude():
-    table = pd.DataFrame({"acceleration": [30.0, 60.0, 70.0], "population": "varied", "back": [0.0, 0.2, np.nan]})
-    table.attrs = {"spread": {}, "starts": 64, "length": 0.5, "longest": 20.0}
-    lengths = pd.DataFrame({"regime": [], "acceleration": [], "spread": [], "predicted": []})
-    tables = {"lengths": lengths, "drift": pd.DataFrame({"status": []})}
-    assert "Some parts move back: at most 20 %, of varied parts at 60 m/s²." in caption(
-        "transit", transit=table, **tables
-    )
-    still = table.assign(back=0.0)
-    still.attrs = table.attrs
-    assert "move back" not in caption("transit", transit=still, **tables)

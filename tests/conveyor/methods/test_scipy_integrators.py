@@ -10,13 +10,13 @@ from conveyor.methods.scipy_integrators import Failed, Leg, Trajectory
 from conveyor.packing import as_rows
 from conveyor.solver.status import EVENT_LOST, GAVE_UP, OK, STATUS, STUCK
 from conveyor_pipeline.common import grid
-from conveyor_pipeline.study.accuracy.scenes import SCENES
 
 CONFIG = read_config()
+SCENES = {"jumping": {"acceleration": 40.0, "z0": 0.3e-3}, "riding": {"acceleration": 30.0, "z0": 0.0}}
 
 
 def scene(name):
-    """The packed parameters of a scene of the config."""
+    """The packed parameters of a scene."""
     return as_rows(grid.row_of(CONFIG["model"] | SCENES[name]))
 
 
