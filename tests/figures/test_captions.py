@@ -34,7 +34,7 @@ def test_a_typed_number_is_found(text):
 def test_a_missing_number_is_an_error():
     with pytest.raises(UndefinedError, match="speed") as error:
         captions.caption("at {{ speed }} m/s", "fig01", {}, {})
-    assert error.value.__notes__ == ["in scripts/conveyor_pipeline/paper/figures/fig01.rst"]
+    assert error.value.__notes__ == [f"in {ROOT / 'scripts/conveyor_pipeline/paper/figures/fig01.rst'}"]
     assert captions.caption("no number\n", "fig01", {}, {}) == "no number\n"
 
 
@@ -56,7 +56,7 @@ def test_captions_name_harmonics_of_the_plate(orders, end):
 
 def test_a_caption_without_numbers_of_its_own_imports_no_numba():
     """There is one job per caption, and Numba would take most of its time."""
-    code = "import sys, make, figures.captions; sys.exit('numba' in sys.modules)"
+    code = "import sys, conveyor_pipeline.make, conveyor_pipeline.figures.captions; sys.exit('numba' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": str(ROOT / "scripts")}, check=True)
 
 

@@ -81,7 +81,8 @@ def test_the_line_of_fig_15_follows_gravity_normal_to_the_track(inclination):
 def test_a_picture_does_not_wait_for_the_compiler():
     """Most plots need only names and units of the library; `simulate` is imported on first use."""
     code = (
-        "import sys, make, draw, conveyor; from figures.plots import fig22; before = 'numba' in sys.modules; "
+        "import sys, conveyor; from conveyor_pipeline import draw, make; "
+        "from conveyor_pipeline.paper.figures import fig22; before = 'numba' in sys.modules; "
         "from conveyor import simulate; print(before, 'numba' in sys.modules, hasattr(conveyor, 'nothing'))"
     )
     scripts = Path(__file__).resolve().parents[2] / "scripts"

@@ -146,15 +146,61 @@ def test_a_module_needs_no_number_of_cores(tmp_path, options):
     assert run.returncode == 0, run.stdout
 
 
-@pytest.mark.parametrize("name", ["workflow", "scripts"])
-def test_a_package_in_place_of_a_folder_of_the_project_is_named(tmp_path, name):
-    (tmp_path / name).mkdir()
-    (tmp_path / name / "__init__.py").write_text("")
-    (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + "use rule * from conveyor")
-    run = call_snakemake("--dry-run", "figures/fig01.pdf", folder=tmp_path)
-    assert run.returncode != 0
-    assert f"Python finds {tmp_path / name} instead; rename that folder" in run.stdout
-    assert "Traceback" not in run.stdout
+OWN_PACKAGES = """
+import sys
+
+sys.path.insert(0, workflow.basedir)
+
+import scripts.settings
+import workflow.settings as settings
+
+assert scripts.settings.NAME == settings.NAME == "own"
+"""
+
+
+def test_a_workflow_with_packages_of_its_own(tmp_path):
+    """Named as the folders of this project, and imported before and after its module."""
+    for name in ("workflow", "scripts", "docs", "figures", "pipeline"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "__init__.py").write_text("")
+        (tmp_path / name / "settings.py").write_text('NAME = "own"')
+    text = OWN_PACKAGES + MODULE.format(snakefile=ROOT / "Snakefile") + "\nimport figures.settings, docs.settings"
+    (tmp_path / "Snakefile").write_text(text)
+    (tmp_path / "config.yaml").write_text(CONFIG)
+    snakemake(tmp_path, *IN_PROCESS_OPTIONS, "--configfile", "config.yaml")
+    assert (tmp_path / "figures/mine/fig01.pdf").is_file()
+    assert (tmp_path / "results/mine/sweeps/few.parquet").is_file()
+
+
+TWO_MODULES = """
+module first:
+    snakefile: "{snakefile}"
+    config: {{"prefix": "first"}}
+    prefix: "one"
+
+module second:
+    snakefile: "{snakefile}"
+    config: {{"prefix": "second", "model": {{"friction": 0.2}}}}
+    prefix: "two"
+
+use rule * from first as first_*
+use rule * from second as second_*
+
+rule all:
+    default_target: True
+    input: "one/figures/first/fig01.pdf", "two/figures/second/fig01.pdf"
+"""
+
+
+def test_two_modules_with_prefixes(tmp_path):
+    (tmp_path / "Snakefile").write_text(TWO_MODULES.format(snakefile=ROOT / "Snakefile"))
+    snakemake(tmp_path, *IN_PROCESS_OPTIONS)
+    assert (tmp_path / "one/figures/first/fig01.pdf").is_file()
+    assert (tmp_path / "two/figures/second/fig01.pdf").is_file()
+    tables = ["one/results/first/estimates/phase.parquet", "two/results/second/estimates/phase.parquet"]
+    stdout = snakemake(tmp_path, "--dry-run", *tables)
+    jobs = dict(re.findall(r"^((?:first|second)_\w+) +(\d+)$", stdout, re.MULTILINE))
+    assert jobs == {"first_estimates": "1", "second_estimates": "1"}
 
 
 FROM_GIT = """

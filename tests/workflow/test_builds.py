@@ -8,7 +8,7 @@ import subprocess
 import pytest
 from project import Project, copy_project, read_config
 
-from builds import provenance
+from conveyor_pipeline.common import provenance
 from conveyor_pipeline.common.provenance import MAY_DIFFER
 
 # The fastest of the figures that are drawn from measured times.
@@ -139,4 +139,4 @@ def test_the_report_of_snakemake_shows_each_figure_with_its_caption(copied):
         assert f'"figures/{caption.stem}.png"' in report
         first_words = " ".join(caption.read_text(encoding="utf-8").split()[:4])
         assert f"<p>{first_words}" in report, caption.stem
-        assert f"Drawn by scripts/figures/plots/{caption.stem}.py" in report
+        assert f"Drawn by scripts/conveyor_pipeline/paper/figures/{caption.stem}.py" in report

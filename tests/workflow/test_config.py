@@ -10,7 +10,7 @@ from project import ROOT, merged, read_config
 from conveyor import Conveyor, Start, ensemble, simulation
 from conveyor.methods import fixed_step
 from conveyor.solver import model
-from conveyor_pipeline.config import problems
+from conveyor_pipeline.config import canonical, problems
 from conveyor_pipeline.config.entries import by_methods, resolve
 from conveyor_pipeline.config.schema import schema_at
 from conveyor_pipeline.config.tables import kind_of, references, settings_of
@@ -73,7 +73,10 @@ WRONG = [
         "figures.fig03.tables.euler = 'sweeps/none'",
     ),
     ({"sweeps": {"amplitudes": {"needs": "vertical"}}}, "figures.fig03 needs feeding, but sweeps/amplitudes"),
-    ({"figures": {"fig99": {**CONFIG["figures"]["fig03"]}}}, "figures.fig99 has no scripts/figures/plots/fig99.py"),
+    (
+        {"figures": {"fig99": {**CONFIG["figures"]["fig03"]}}},
+        "fig99 has no files scripts/conveyor_pipeline/FLOOR/figures/fig99.py",
+    ),
     ({"prefix": "a/b"}, "prefix = 'a/b' should be a folder name"),
     ({"prefix": "a\n"}, "prefix = 'a\\n' should be a folder name of at most 64"),
     ({"prefix": "a" * 300}, "should be a folder name of at most 64"),
@@ -99,8 +102,8 @@ WRONG = [
     ({"critical": {"edge": {"axes": {"z0": [0.0]}}}}, "critical.edge.axes.z0 is the scanned parameter"),
     ({"critical": {"edge": {"model": {"z0": 0.0}}}}, "critical.edge.model.z0 is the scanned parameter"),
     (
-        {"figures": {"fig09": {"settings": {"critical_hight": 1.0}}}},
-        "figures.fig09.settings.critical_hight is an unknown key; did you mean critical_height?",
+        {"figures": {"fig09": {"marks": {"critical_hight": 1.0}}}},
+        "figures.fig09.marks.critical_hight is an unknown key; did you mean critical_height?",
     ),
     (
         {"figures": {"fig09": {"settings": {"longest_period": 1}}}},
@@ -247,7 +250,10 @@ WRONG = [
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
     ({"drive": {"velocity": "2 cm/s"}}, "drive.velocity = '2 cm/s' should be a valid number (m/s)"),
     ({"model": {"inclination": 3.0}}, "model.inclination = 3.0 should be at most 1.4 (rad); angles are in radians"),
-    ({"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}}, "has no scripts/figures/plots/fig98.rst"),
+    (
+        {"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}},
+        "fig98 has no files scripts/conveyor_pipeline/FLOOR/figures/fig98.py and fig98.rst",
+    ),
     # crashed the check of earlier versions, or ran without end
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "euler = 'model/acceleration' is unknown"),
     ({"figures": {"fig03": {"tables": {"euler": "prefix/x"}}}}, "figures.fig03.tables.euler = 'prefix/x' is unknown"),
@@ -395,7 +401,8 @@ NORMAL = ("orbits/branches", "orbits/certificates", "attractors/strobes", "lyapu
 def test_tables_of_the_normal_motion_do_not_depend_on_the_motion_along_the_track():
     mine = {name: {"axes": {"acceleration": [30.0]}, "needs": name} for name in ("vertical", "feeding")}
     before, after, inclined = (
-        by_methods(merged(CONFIG, {"sweeps": mine, "model": change})) for change in ({}, ALONG, {"inclination": 0.1})
+        by_methods(canonical(merged(CONFIG, {"sweeps": mine, "model": change})))
+        for change in ({}, ALONG, {"inclination": 0.1})
     )
     tables = [reference for reference in references(before) if settings_of(before, reference) is not None]
     same = {reference for reference in tables if settings_of(before, reference) == settings_of(after, reference)}
@@ -415,6 +422,6 @@ def test_an_axis_along_the_track_keeps_the_parameters_along_it():
 
 
 def test_parameters_are_imported_without_numpy():
-    code = "import sys; import scripts.conveyor.parameters; print('numpy' in sys.modules)"
-    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
+    code = "import sys; import conveyor.parameters; print('numpy' in sys.modules)"
+    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT / "scripts", capture_output=True, text=True)
     assert run.stdout.strip() == "False", run.stderr

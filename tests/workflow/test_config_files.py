@@ -1,5 +1,6 @@
 """Faults of config files that are found before Snakemake merges them, and how they are reported."""
 
+import os
 import re
 import resource
 import subprocess
@@ -229,13 +230,17 @@ def test_nested_values_of_the_command_line_are_an_overlay(project, tmp_path):
     assert settings["axes"]["z0"] == [0.0, 1.0e-4]
 
 
+CHECK = (sys.executable, "-m", "conveyor_pipeline.config")
+WITH_SCRIPTS = os.environ | {"PYTHONPATH": "scripts"}
+
+
 def test_overlays_can_be_checked_without_snakemake(tmp_path):
-    file, check = tmp_path / "mine.yaml", [sys.executable, "-m", "conveyor_pipeline.config"]
+    file = tmp_path / "mine.yaml"
     file.write_text("prefix: mine\nmodel: {damping: 0.2\n")
-    run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
+    run = subprocess.run([*CHECK, str(file)], cwd=ROOT, env=WITH_SCRIPTS, capture_output=True, text=True)
     assert run.returncode == 1 and f"{file}:3: is not valid YAML: " in run.stderr
     file.write_text("prefix: mine\nmodel: {damping: 0.2}")
-    run = subprocess.run([*check, str(file)], cwd=ROOT, capture_output=True, text=True)
+    run = subprocess.run([*CHECK, str(file)], cwd=ROOT, env=WITH_SCRIPTS, capture_output=True, text=True)
     assert run.returncode == 0 and "valid" in run.stdout
 
 
@@ -243,14 +248,16 @@ def test_the_whole_config_is_shown_with_origins(tmp_path):
     """Also of values that YAML repeats through an anchor."""
     file = tmp_path / "mine.yaml"
     file.write_text("prefix: mine\nsweeps:\n  heights:\n    axes: {z0: {num: 41}}\n  one: {axes: {z0: [0, 1e-4]}}\n")
-    show = [sys.executable, "-m", "conveyor_pipeline.config", "--show", str(file)]
-    lines = subprocess.run(show, cwd=ROOT, capture_output=True, text=True, check=True).stdout.splitlines()
-    shown = dict(line.split(" = ", 1) for line in lines)
+    show = [*CHECK, "--show", str(file)]
+    run = subprocess.run(show, cwd=ROOT, env=WITH_SCRIPTS, capture_output=True, text=True, check=True)
+    shown = dict(line.split(" = ", 1) for line in run.stdout.splitlines())
     assert shown["prefix"] == f'"mine"    # {file}:1'
     assert shown["sweeps.heights.axes.z0.num"] == f"41    # {file}:4"
     assert shown["sweeps.one.axes.z0"] == f"[0.0, 0.0001]    # {file}:5"
-    assert re.fullmatch(r"0\.0004    # config/defaults/sweeps\.yaml:\d+", shown["sweeps.heights.axes.z0.stop"])
-    assert re.fullmatch(r"400    # config/defaults/sweeps\.yaml:\d+", shown["sweeps.map_height_chaos.axes.psi0.num"])
+    assert re.fullmatch(r"0\.0004    # config/defaults/paper/sweeps\.yaml:\d+", shown["sweeps.heights.axes.z0.stop"])
+    assert re.fullmatch(
+        r"400    # config/defaults/paper/sweeps\.yaml:\d+", shown["sweeps.map_height_chaos.axes.psi0.num"]
+    )
     assert {key.split(".")[0] for key in shown} == set(read_config())
 
 

@@ -9,25 +9,24 @@ from conveyor_pipeline.common import imports, source_hash
 
 # Stages that call functions of other stages; the budget makes the tables of figures again with other settings.
 CALLS = {
-    "accuracy/scene_budget": {
-        "dimensions/portraits",
-        "motion/critical",
-        "motion/impacts",
-        "motion/signals",
-        "motion/spectra",
-        "orbits/estimates",
-        "orbits/exponents",
-        "orbits/strobes",
-        "sweeps/shards",
+    "study/accuracy/scene_budget": {
+        "paper/dimensions/portraits",
+        "paper/motion/critical",
+        "paper/motion/impacts",
+        "paper/motion/signals",
+        "paper/motion/spectra",
+        "paper/orbits/estimates",
+        "paper/orbits/exponents",
+        "paper/orbits/strobes",
+        "paper/sweeps/shards",
     },
-    "operating/shares": {"operating/regimes"},
-    "operating/advice": {"operating/transit"},
-    "operating/drift": {"operating/regimes", "operating/transit"},
-    "operating/track": {"operating/regimes", "operating/shares"},
-    "operating/drive": {"operating/transit"},
-    "excitation/clean_drive": {"operating/transit"},
-    "excitation/comparison": {"operating/transit"},
-    "operating/throws": {"operating/regimes", "operating/shares"},
+    "machine/operating/advice": {"machine/operating/transit"},
+    "machine/operating/drift": {"machine/operating/transit"},
+    "machine/operating/track": {"machine/operating/shares"},
+    "machine/operating/drive": {"machine/operating/transit"},
+    "machine/excitation/clean_drive": {"machine/operating/transit"},
+    "machine/excitation/comparison": {"machine/operating/transit"},
+    "machine/operating/throws": {"machine/operating/shares"},
 }
 
 
@@ -61,6 +60,11 @@ def scripts(tmp_path, monkeypatch):
 def modules(*scripts):
     files, _ = source_hash.closure(*scripts)
     return {str(file.relative_to(source_hash.SCRIPTS)) for file in files}
+
+
+def below_package(*modules):
+    """Modules of the pipeline, as paths below scripts/."""
+    return [f"conveyor_pipeline/{module}" for module in modules]
 
 
 def test_imports_are_followed_to_any_depth(scripts):
@@ -132,7 +136,7 @@ def test_a_patch_of_python_reruns_nothing():
 def test_every_package_behind_a_number_or_a_picture_counts():
     """They are found from imports, without a list: pandas, and indirectly llvmlite and pillow."""
     _, packages = source_hash.closure(
-        DRAW, f"{PAPER}/figures/fig22", f"{PAPER}/fit/regressions", f"{PAPER}/sweeps/shards"
+        *below_package("draw", "paper/figures/fig22", "paper/fit/regressions", "paper/sweeps/shards")
     )
     names = {one.split("==")[0] for one in source_hash.versions(packages)}
     assert {
@@ -154,41 +158,50 @@ def test_checks_of_the_config_rerun_nothing():
     files = [path for path in source_hash.SCRIPTS.rglob("*.py") if path.name != "settings.py"]
     scripts = {str(path.relative_to(source_hash.SCRIPTS).with_suffix("")) for path in files}
     # Pages show the comments of the config files and where the workflow puts its tables; a stage reads the examples.
-    _, packages = source_hash.closure(
-        *scripts - {"docs/article", "docs/config_keys", "docs/pages", "docs/tables_page", "operating/throws"}
-    )
+    readers = ("pages/article", "pages/config_keys", "pages/pages", "pages/tables_page", "machine/operating/throws")
+    # What the Snakefile imports, but no job.
+    checks = {script for script in scripts if "/config/" in script or script.endswith(("/checks", "/budgeted"))}
+    assert len(checks) > 10
+    files, packages = source_hash.closure(*scripts - checks - {*below_package(*readers)})
     assert "numpy" in packages
-    assert not {"pydantic", "pydantic_core", "yaml", "snakemake", "workflow"} & set(packages)
+    assert not {"pydantic", "pydantic_core", "ruamel", "yaml", "snakemake"} & set(packages)
+    assert [file for file in files if file.parent.name == "config"] == []
 
 
 @pytest.mark.parametrize(
     ("module", "users"),
     [
-        ("solver/contact.py", {"sweeps/shards", "orbits/estimates"}),
-        ("analysis/chaos/lyapunov.py", {"sweeps/shards"}),
-        ("analysis/attractors/labels.py", {"sweeps/shards"}),
-        ("analysis/chaos/pairs.py", {"orbits/estimates"}),
+        ("solver/contact.py", {"paper/sweeps/shards", "paper/orbits/estimates"}),
+        ("analysis/chaos/lyapunov.py", {"paper/sweeps/shards"}),
+        ("analysis/attractors/labels.py", {"paper/sweeps/shards"}),
+        ("analysis/chaos/pairs.py", {"paper/orbits/estimates"}),
     ],
 )
 def test_an_analysis_reruns_only_what_uses_it(module, users):
     """Labels need exponents; estimates from pairs of trajectories need no labels."""
-    assert {stage for stage in ("sweeps/shards", "orbits/estimates") if f"conveyor/{module}" in modules(stage)} == users
+    stages = ("paper/sweeps/shards", "paper/orbits/estimates")
+    assert {stage for stage in stages if f"conveyor/{module}" in modules(*below_package(stage))} == users
 
 
 def test_plots_depend_on_no_solver():
     for figure in ("fig03", "fig22"):
-        assert modules(DRAW, f"{PAPER}/figures/{figure}") == {
-            "draw.py",
-            "pipeline/rule_log.py",
-            "pipeline/tables.py",
-            f"figures/plots/{figure}.py",
-            "figures/style.py",
+        files = (
+            "draw",
+            "common/rule_log",
+            "common/tables",
+            "figures/style",
+            "figures/titles",
+            f"paper/figures/{figure}",
+        )
+        assert modules(*below_package("draw", f"paper/figures/{figure}")) == {
+            f"{file}.py" for file in below_package(*files)
         }
 
 
+PACKAGE = ROOT / "scripts/conveyor_pipeline"
 STAGES = sorted(
-    f"{path.parent.name}/{path.stem}"
-    for path in (ROOT / "scripts").glob("*/*.py")
+    path.relative_to(PACKAGE).with_suffix("").as_posix()
+    for path in PACKAGE.rglob("*.py")
     if "\nTABLES = {" in path.read_text(encoding="utf-8")
 )
 
@@ -196,17 +209,21 @@ STAGES = sorted(
 @pytest.mark.parametrize("stage", STAGES)
 def test_only_a_stage_itself_has_the_columns_of_its_tables(stage):
     """A new description of a column reruns the stage and the stages that call its functions, but no other stage."""
-    users = {other for other in STAGES if ROOT / f"scripts/{stage}.py" in source_hash.closure(other)[0]}
+    users = {other for other in STAGES if PACKAGE / f"{stage}.py" in source_hash.closure(*below_package(other))[0]}
     assert users == {stage} | {user for user, used in CALLS.items() if stage in used}
+
+
+def test_the_list_of_calls_names_stages():
+    assert set(STAGES) >= {*CALLS, *(stage for used in CALLS.values() for stage in used)}
 
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_a_table_depends_on_the_values_of_its_settings_but_not_on_their_declarations(stage):
     """Otherwise a new description or range of one setting would rerun all tables."""
-    assert [file for file in source_hash.closure(stage)[0] if file.name == "settings.py"] == []
+    assert [file for file in source_hash.closure(*below_package(stage))[0] if file.name == "settings.py"] == []
 
 
 def test_the_library_knows_nothing_of_snakemake():
     for module in (source_hash.SCRIPTS / "conveyor").rglob("*.py"):
         _, imported = imports.direct_imports(module, source_hash.SCRIPTS)
-        assert not imported & {"snakemake", "workflow", "pipeline", "pandas", "pyarrow"}, module
+        assert not imported & {"snakemake", "conveyor_pipeline", "pandas", "pyarrow"}, module

@@ -13,7 +13,7 @@ from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
 from conveyor_pipeline.machine.excitation import measure
 from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY
-from conveyor_pipeline.machine.excitation.sampling import EVEN, ROUNDED, STAMPED, resolve
+from conveyor_pipeline.machine.excitation.sample_times import EVEN, ROUNDED, STAMPED, resolve
 
 PURE = Drive(cycles=100.0, rate=1600.0, noise=0.1, bias=(0.0, 0.0), mount=0.2)
 TIMES, READINGS = PURE.record()

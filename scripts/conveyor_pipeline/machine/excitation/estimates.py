@@ -26,7 +26,7 @@ from scipy.stats import t as t_distribution
 from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of
 from conveyor_pipeline.machine.excitation.modulation import modulation_of
 from conveyor_pipeline.machine.excitation.reading import AXES, Recording, turn
-from conveyor_pipeline.machine.excitation.sampling import CHECKED
+from conveyor_pipeline.machine.excitation.sample_times import CHECKED
 
 PARAMETERS = {"acceleration": "m/s²", "frequency": "Hz", "angle": "rad", "phase_shift": "rad"}
 SHARES = ("along", "along_phase", "normal", "normal_phase")

@@ -20,7 +20,7 @@ from conveyor_pipeline.machine.excitation.harmonics import (
 )
 from conveyor_pipeline.machine.excitation.modulation import Modulation, alternates, modulation_of, timing_line
 from conveyor_pipeline.machine.excitation.reading import DIRECTIONS, UNITS, Recording, parse
-from conveyor_pipeline.machine.excitation.sampling import CHECKED, MOST_EQUAL, MOST_GAPS, resolve
+from conveyor_pipeline.machine.excitation.sample_times import CHECKED, MOST_EQUAL, MOST_GAPS, resolve
 
 LEAST_CYCLES = 8
 LEAST_PER_CYCLE = 8  # samples; with fewer, harmonics of low orders are aliased

@@ -27,7 +27,7 @@ from conveyor_pipeline.machine.excitation.reading import (
     parse,
     wanted,
 )
-from conveyor_pipeline.machine.excitation.sampling import resolve
+from conveyor_pipeline.machine.excitation.sample_times import resolve
 
 DIGITS = 10  # of all numbers; further digits depend on the processor, and no sensor has them
 SAMPLES, POINTS, BINS = 2000, 257, 2000  # of the figure

@@ -47,7 +47,7 @@ class Recording(NamedTuple):
     lines: np.ndarray  # of the file, shape (n,)
     names: dict[str, str]  # of the columns in the file, by `time`, `x`, …, with a minus for a reversed axis
     unit: str  # of the readings in the file, one of UNITS
-    sampling: str = "stamped"  # how the times follow from the file; see excitation.sampling
+    sampling: str = "stamped"  # how the times follow from the file; see sample_times.py
     repeated: int = 0  # lines that repeat the readings of the line before, and that are left out
     rate_error: float = 0.0  # relative standard error of the sampling rate
     resolution: float = 0.0  # s, to which uneven times are rounded
