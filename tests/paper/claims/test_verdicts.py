@@ -618,4 +618,3 @@ def test_the_page_explains_verdicts_and_has_dashes_for_missing_numbers():
         "## Why statements are not reproduced\n\n- **C1** onset: 9 by the converged solution; accepted: [1, 2]." in page
     )
     assert "## Notes" not in page  # no heading without a text below it
-    assert "an overlay without a prefix" in verdicts.report(template, table.iloc[:0])
