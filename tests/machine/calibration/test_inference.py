@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 import pandas as pd
 import pytest
-from project import ROOT, read_config
+from project import ROOT, si_config
 
 from conveyor.parameters import RANGES
 from conveyor_pipeline.common import csv_table
@@ -192,7 +192,7 @@ BOWL_CONTACT = {"friction": 0.36, "damping": 1.0, "stiffness": 1.1e6}
 
 def test_a_trial_of_twenty_velocities_of_the_model_itself_gives_no_verdict(capsys):
     """Its search has not converged, and says only that, in the tables and on the page."""
-    settings = settings_of(read_config(), "calibration/parameters")
+    settings = settings_of(si_config(), "calibration/parameters")
     settings |= {"model": settings["model"] | BOWL, "measurements": "mine.csv", "effort": 0.3}
     settings |= {"height": [0.0, 1.2e-4], "vz0": [-0.1, 0.1]}
     amplitudes = np.repeat(np.linspace(0.6, 1.0, 10) * 9.81 / math.sin(BOWL["angle"]), 2)
