@@ -261,6 +261,15 @@ def test_the_whole_config_is_shown_with_origins(tmp_path):
     assert {key.split(".")[0] for key in shown} == set(read_config())
 
 
+def test_a_reader_may_end_before_the_whole_config_is_shown():
+    """As in `… --show | head`: no traceback."""
+    with subprocess.Popen(
+        [*CHECK, "--show"], cwd=ROOT, env=WITH_SCRIPTS, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as run:
+        run.stdout.close()
+        assert run.stderr.read() == ""
+
+
 def test_the_config_of_the_user_is_an_overlay(tmp_path):
     """It lies below the files of --configfile and the values of --config."""
     folder = copy_project(tmp_path)

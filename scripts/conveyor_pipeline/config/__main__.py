@@ -6,6 +6,7 @@ With --show, print the whole config that results, with the origin of each value.
 import argparse
 import json
 import os
+import signal
 import sys
 from collections.abc import Iterator
 
@@ -32,6 +33,8 @@ def show(config: dict, files: list[str]) -> Iterator[str]:
 
 
 if __name__ == "__main__":
+    # End quietly if the reader of the output ends first, such as `head`.
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     parser = argparse.ArgumentParser(prog="python -m conveyor_pipeline.config", description=__doc__)
     parser.add_argument("--show", action="store_true", help="print all values and their origins")
     parser.add_argument("file", nargs="*", help="an overlay, as for Snakemake's option --configfile")
