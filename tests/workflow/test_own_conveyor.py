@@ -6,7 +6,7 @@ import pytest
 import yaml
 from project import ROOT, Project, merged, read_config
 
-from conveyor import Conveyor, throw_number
+from conveyor import Conveyor
 from conveyor_pipeline.config import ConfigError, load_config, problems
 from conveyor_pipeline.config.entries import NORMAL
 from conveyor_pipeline.config.files import DEFAULT_FILES
@@ -70,76 +70,6 @@ def test_axes_of_the_paper_are_what_the_config_says(name):
         assert own[section] == paper[section]
 
 
-def test_dimensionless_settings_fit_the_papers_conveyor():
-    """The default axes are the axes of the paper's figures."""
-    config = load({})
-    assert config["operating"]["acceleration"] == {"start": 20.0, "stop": 90.0, "num": 141}
-    assert [config["operating"][key] for key in ("resolution", "height", "vz0")] == [0.2, [0.0, 0.5e-3], [-0.2, 0.2]]
-    assert config["transit"]["acceleration"] == {"start": 20.0, "stop": 90.0, "num": 71}
-    assert (config["clean_drive"]["riding"], config["clean_drive"]["chaos"]) == ([32.0, 44.0], [80.0, 90.0])
-    assert config["drive"]["bounds"]["acceleration"] == [10.0, 80.0]
-    assert config["drive"]["bounds"]["frequency"] == [40.0, 60.0]
-    assert config["drive"]["search"]["longest"] == 2.0
-    assert (config["track"]["acceleration"], config["advice"]["changes"]["frequency"]) == (40.0, 1.0)
-
-
-def test_dimensionless_settings_follow_the_conveyor_and_limits_in_si_units_do_not():
-    """Twice the frequency under four times the gravity: heights stay, velocities double, times halve."""
-    own, paper = load({"prefix": "mine", "model": {"frequency": 100.0, "gravity": 39.24}}), load({})
-    assert own["operating"]["acceleration"] == {"start": 80.0, "stop": 360.0, "num": 141}
-    assert (own["operating"]["height"], own["operating"]["vz0"]) == ([0.0, 0.5e-3], [-0.4, 0.4])
-    assert (own["drive"]["bounds"]["frequency"], own["drive"]["search"]["longest"]) == ([80.0, 120.0], 1.0)
-    assert own["advice"]["changes"]["frequency"] == 2.0
-    for section, keys in (("drive", ("impact_speed", "displacement", "velocity")), ("transit", ("length", "longest"))):
-        assert [own[section][key] for key in keys] == [paper[section][key] for key in keys]
-    assert own["parts"] == paper["parts"]
-
-
-@pytest.mark.parametrize("model", [{"angle": 0.4}, {"inclination": 0.3, "gravity": 1.62}, {"frequency": 400.0}])
-def test_amplitudes_are_throw_numbers(model):
-    config = load({"prefix": "mine", "model": model})
-    ends = [config["operating"]["acceleration"][end] for end in ("start", "stop")]
-    shape = {key: config["model"][key] for key in ("angle", "gravity", "inclination")}
-    assert throw_number(ends, **shape).tolist() == pytest.approx([0.4239, 1.9074], rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("given", "expected"),
-    [
-        ({"acceleration": [30.0, 35.0]}, [30.0, 35.0]),
-        ({"acceleration": {"num": 15}}, {"start": 20.0, "stop": 90.0, "num": 15}),
-        (
-            {"acceleration": {"start": 30.0}, "dimensionless": {"acceleration": {"num": 15}}},
-            {"start": 30.0, "stop": 90.0, "num": 15},
-        ),
-        ({"dimensionless": {"acceleration": [0.4239, 1.9074]}}, [20.0, 90.0]),
-    ],
-)
-def test_values_in_si_units_replace_dimensionless_ones(given, expected):
-    assert load({"prefix": "mine", "operating": given})["operating"]["acceleration"] == expected
-
-
-@pytest.mark.parametrize(
-    ("overlay", "told"),
-    [
-        (
-            {"operating": {"height": [0.0, 1.0e-3], "dimensionless": {"height": [0.0, 1.0]}}},
-            "operating.height is given in SI",
-        ),
-        (
-            {"transit": {"acceleration": {"num": 3}, "dimensionless": {"acceleration": [1.0]}}},
-            "transit.acceleration is given",
-        ),
-        ({"operating": {"acceleration": {"start": 100.0}}}, "is reversed: start is above stop"),
-        ({"operating": {"dimensionless": {"acceleration": {"start": 2.0}}}}, "is reversed: start is above stop"),
-        ({"model": {"angle": 0.0}}, "model.angle = 0.0 means that no amplitude can lift a part"),
-    ],
-)
-def test_dimensionless_values_that_cannot_be_used_are_refused(overlay, told):
-    with pytest.raises(ConfigError, match=re.escape(told)):
-        load({"prefix": "mine", **overlay})
-
-
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_examples_are_short_and_unlike_the_paper(name):
     assert len(EXAMPLES[name].read_text().splitlines()) <= 18
@@ -160,20 +90,6 @@ def test_examples_are_short_and_unlike_the_paper(name):
 def test_an_impossible_conveyor_is_reported(model, told):
     with pytest.raises(ConfigError, match=re.escape(told)):
         load({"prefix": "mine", "model": model})
-
-
-def test_the_default_target_of_another_conveyor_is_its_machine(tmp_path):
-    overlay = {"prefix": "mine", "model": {"friction": 0.2}}
-    jobs = [
-        re.findall(r"^(\w+) +(\d+)$", planned(overlay, tmp_path, *target).stdout, re.MULTILINE)
-        for target in ((), ("machine",))
-    ]
-    default, machine = ({name for name, _ in found} - {"all", "machine"} for found in jobs)
-    assert (
-        default
-        == machine
-        == {"operating", "transit", "advice", "drift", "track", "operating_chart", "plot", "caption", "total"}
-    )
 
 
 def test_figures_of_the_paper_are_drawn_for_another_conveyor_if_named(tmp_path):
@@ -228,16 +144,3 @@ def test_tables_of_the_normal_motion_stay_when_only_the_motion_along_the_track_c
     assert len(found) > 20
     assert [name for name in found if settings_of(paper, name) != settings_of(own, name)] == []
     assert settings_of(paper, "sweeps/amplitudes") != settings_of(own, "sweeps/amplitudes")
-
-
-@pytest.mark.parametrize("is_calibrated", [False, True])
-def test_transit_and_advice_of_calibrated_parts_depend_on_the_calibration(built, is_calibrated):
-    (built.folder / "measured.csv").write_text("acceleration,velocity\n30,0.02\n40,0.05\n50,0.06\n60,0.07\n")
-    overlay = {"prefix": "measured", "calibration": {"measurements": "measured.csv"}}
-    project = built.under(overlay | {"parts": {"calibrated": is_calibrated}})
-    graph = project.snakemake("results/measured/operating/advice.parquet", "--rulegraph", "dot").stdout
-    rules = dict(re.findall(r'(\d+)\[label = "(\w+)"', graph))
-    edges = {(rules[begin], rules[end]) for begin, end in re.findall(r"(\d+) -> (\d+)", graph)}
-    assert ("transit", "advice") in edges
-    for source in ("calibration", "calibrated"):
-        assert {(source, "transit"), (source, "advice")} <= edges if is_calibrated else source not in rules.values()

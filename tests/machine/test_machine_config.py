@@ -1,0 +1,41 @@
+"""Errors in the sections of the floor machine."""
+
+import pytest
+from project import ROOT, merged, read_config
+
+from conveyor_pipeline.config import problems
+
+# An overlay, and a part of the expected message.
+WRONG = [
+    ({"calibration": {"ranges": {"angle": [0.1, 16]}}}, "16° are 0.2793 rad"),
+    ({"calibration": {"ranges": {"friction": [0.4, 0.1]}}}, "is reversed"),
+    ({"transit": {"parts": True}}, "transit.parts = True should be a number"),
+    (
+        {"transit": {"longest": 0.01}},
+        "transit.longest = 0.01 s is shorter than the longest excitation cycle of model and drive.bounds (0.025 s)",
+    ),
+    ({"calibration": {"effort": 0}}, "calibration.effort = 0 should be at least 0.05"),
+    (
+        {
+            "prefix": "mine",
+            "model": {"friction": 0.02, "static_friction": 0.03},
+            "calibration": {"measurements": str(ROOT / "config/examples/measured.csv")},
+        },
+        "model.static_friction = 0.03 leaves no friction to search, because calibration.ranges.friction begins at 0.04",
+    ),
+    (
+        {"clean_drive": {"shares": [0.02, 0.1]}},
+        "clean_drive.shares = [0.02, 0.1] lacks 0.05, the share of the statement on chaos; add it",
+    ),
+    ({"parts": {"calibrated": True}}, "parts.calibrated needs measurements; name the config with"),
+    ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
+    ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
+    ({"drive": {"velocity": "2 cm/s"}}, "drive.velocity = '2 cm/s' should be a valid number (m/s)"),
+    ({"transit": {"acceleration": {"num": 1}}}, "has num: 1 for two ends; give more values, or a list such as [20.0]"),
+]
+
+
+@pytest.mark.parametrize(("overlay", "message"), WRONG, ids=[message[:40] for _, message in WRONG])
+def test_an_error_names_key_and_remedy(overlay, message):
+    lines = problems(merged(read_config(), overlay))
+    assert any(message in line for line in lines), lines

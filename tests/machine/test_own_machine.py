@@ -1,0 +1,141 @@
+"""Settings of the floor machine: dimensionless values, the target of another conveyor, and measured files."""
+
+import re
+
+import pytest
+import yaml
+from project import ROOT, Project, copy_project
+
+from conveyor import throw_number
+from conveyor_pipeline.config import ConfigError, load_config
+from conveyor_pipeline.config.files import DEFAULT_FILES
+
+
+def load(overlay: dict) -> dict:
+    """The config of an overlay, as the Snakefile makes it."""
+    return load_config(DEFAULT_FILES, [], overlay).config
+
+
+def planned(overlay: dict, tmp_path, *targets: str):
+    """A dry run with an overlay."""
+    file = tmp_path / "mine.yaml"
+    file.write_text(yaml.safe_dump(overlay, sort_keys=False))
+    return Project(ROOT).called("--dry-run", *targets, "--configfile", str(file))
+
+
+def test_dimensionless_settings_fit_the_papers_conveyor():
+    """The default axes are the axes of the paper's figures."""
+    config = load({})
+    assert config["operating"]["acceleration"] == {"start": 20.0, "stop": 90.0, "num": 141}
+    assert [config["operating"][key] for key in ("resolution", "height", "vz0")] == [0.2, [0.0, 0.5e-3], [-0.2, 0.2]]
+    assert config["transit"]["acceleration"] == {"start": 20.0, "stop": 90.0, "num": 71}
+    assert (config["clean_drive"]["riding"], config["clean_drive"]["chaos"]) == ([32.0, 44.0], [80.0, 90.0])
+    assert config["drive"]["bounds"]["acceleration"] == [10.0, 80.0]
+    assert config["drive"]["bounds"]["frequency"] == [40.0, 60.0]
+    assert config["drive"]["search"]["longest"] == 2.0
+    assert (config["track"]["acceleration"], config["advice"]["changes"]["frequency"]) == (40.0, 1.0)
+
+
+def test_dimensionless_settings_follow_the_conveyor_and_limits_in_si_units_do_not():
+    """Twice the frequency under four times the gravity: heights stay, velocities double, times halve."""
+    own, paper = load({"prefix": "mine", "model": {"frequency": 100.0, "gravity": 39.24}}), load({})
+    assert own["operating"]["acceleration"] == {"start": 80.0, "stop": 360.0, "num": 141}
+    assert (own["operating"]["height"], own["operating"]["vz0"]) == ([0.0, 0.5e-3], [-0.4, 0.4])
+    assert (own["drive"]["bounds"]["frequency"], own["drive"]["search"]["longest"]) == ([80.0, 120.0], 1.0)
+    assert own["advice"]["changes"]["frequency"] == 2.0
+    for section, keys in (("drive", ("impact_speed", "displacement", "velocity")), ("transit", ("length", "longest"))):
+        assert [own[section][key] for key in keys] == [paper[section][key] for key in keys]
+    assert own["parts"] == paper["parts"]
+
+
+@pytest.mark.parametrize("model", [{"angle": 0.4}, {"inclination": 0.3, "gravity": 1.62}, {"frequency": 400.0}])
+def test_amplitudes_are_throw_numbers(model):
+    config = load({"prefix": "mine", "model": model})
+    ends = [config["operating"]["acceleration"][end] for end in ("start", "stop")]
+    shape = {key: config["model"][key] for key in ("angle", "gravity", "inclination")}
+    assert throw_number(ends, **shape).tolist() == pytest.approx([0.4239, 1.9074], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ({"acceleration": [30.0, 35.0]}, [30.0, 35.0]),
+        ({"acceleration": {"num": 15}}, {"start": 20.0, "stop": 90.0, "num": 15}),
+        (
+            {"acceleration": {"start": 30.0}, "dimensionless": {"acceleration": {"num": 15}}},
+            {"start": 30.0, "stop": 90.0, "num": 15},
+        ),
+        ({"dimensionless": {"acceleration": [0.4239, 1.9074]}}, [20.0, 90.0]),
+    ],
+)
+def test_values_in_si_units_replace_dimensionless_ones(given, expected):
+    assert load({"prefix": "mine", "operating": given})["operating"]["acceleration"] == expected
+
+
+@pytest.mark.parametrize(
+    ("overlay", "told"),
+    [
+        (
+            {"operating": {"height": [0.0, 1.0e-3], "dimensionless": {"height": [0.0, 1.0]}}},
+            "operating.height is given in SI",
+        ),
+        (
+            {"transit": {"acceleration": {"num": 3}, "dimensionless": {"acceleration": [1.0]}}},
+            "transit.acceleration is given",
+        ),
+        ({"operating": {"acceleration": {"start": 100.0}}}, "is reversed: start is above stop"),
+        ({"operating": {"dimensionless": {"acceleration": {"start": 2.0}}}}, "is reversed: start is above stop"),
+        ({"model": {"angle": 0.0}}, "model.angle = 0.0 means that no amplitude can lift a part"),
+    ],
+)
+def test_dimensionless_values_that_cannot_be_used_are_refused(overlay, told):
+    with pytest.raises(ConfigError, match=re.escape(told)):
+        load({"prefix": "mine", **overlay})
+
+
+def test_the_default_target_of_another_conveyor_is_its_machine(tmp_path):
+    overlay = {"prefix": "mine", "model": {"friction": 0.2}}
+    jobs = [
+        re.findall(r"^(\w+) +(\d+)$", planned(overlay, tmp_path, *target).stdout, re.MULTILINE)
+        for target in ((), ("machine",))
+    ]
+    default, machine = ({name for name, _ in found} - {"all", "machine"} for found in jobs)
+    assert (
+        default
+        == machine
+        == {"operating", "transit", "advice", "drift", "track", "operating_chart", "plot", "caption", "total"}
+    )
+
+
+@pytest.mark.parametrize("is_calibrated", [False, True])
+def test_transit_and_advice_of_calibrated_parts_depend_on_the_calibration(built, is_calibrated):
+    (built.folder / "measured.csv").write_text("acceleration,velocity\n30,0.02\n40,0.05\n50,0.06\n60,0.07\n")
+    overlay = {"prefix": "measured", "calibration": {"measurements": "measured.csv"}}
+    project = built.under(overlay | {"parts": {"calibrated": is_calibrated}})
+    graph = project.snakemake("results/measured/operating/advice.parquet", "--rulegraph", "dot").stdout
+    rules = dict(re.findall(r'(\d+)\[label = "(\w+)"', graph))
+    edges = {(rules[begin], rules[end]) for begin, end in re.findall(r"(\d+) -> (\d+)", graph)}
+    assert ("transit", "advice") in edges
+    for source in ("calibration", "calibrated"):
+        assert {(source, "transit"), (source, "advice")} <= edges if is_calibrated else source not in rules.values()
+
+
+@pytest.fixture(scope="module")
+def project(tmp_path_factory) -> Project:
+    """A copy of the project without results."""
+    return Project(copy_project(tmp_path_factory.mktemp("refused")))
+
+
+def assert_refused(run, message: str) -> None:
+    assert run.returncode != 0
+    assert message in run.stdout
+    assert len(run.stdout.splitlines()) <= 10
+
+
+def test_braces_in_the_name_of_a_measured_file_or_its_folder_are_refused(project, tmp_path):
+    folder = tmp_path / "a{x}"
+    folder.mkdir()
+    (folder / "mine.csv").write_bytes((ROOT / "config/examples/measured.csv").read_bytes())
+    (folder / "mine.yaml").write_text("prefix: mine\ncalibration: {measurements: mine.csv}\n")
+    run = project.called("--dry-run", "results/mine/calibration.md", "--configfile", str(folder / "mine.yaml"))
+    assert_refused(run, "a{x}/mine.csv' has braces, which Snakemake takes for a wildcard; rename the file or folder")
