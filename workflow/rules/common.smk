@@ -170,12 +170,6 @@ def figure_modules(figure, part="figures"):
     return [f"{package.replace('.', '/')}/{figure}"] if package else []
 
 
-def findings_of(claims):
-    """The modules that compute the findings of claims, as paths below scripts/ without ".py"."""
-    names = sorted({claim["finding"].split(".")[0] for claim in claims.values()})
-    return [module for name in names for module in figure_modules(name, "claims")]
-
-
 def caption_scripts(wildcards):
     """The script that computes numbers of a caption, if there is one."""
     return figure_modules(wildcards.figure, "caption_numbers")
@@ -192,3 +186,15 @@ def tables_of_caption(wildcards):
     """The tables that a figure draws, and further tables of its caption, by their roles."""
     further = FIGURES.get(wildcards.figure, {}).get("caption_tables", {})
     return tables_of_figure(wildcards) | {role: table(reference) for role, reference in further.items()}
+
+
+def section_in_report(wildcards):
+    """The category of a figure in Snakemake's report."""
+    section = FIGURES[wildcards.figure]["section"]
+    return f"Section {section}" if wildcards.figure in PAPER_FIGURES else f"Section {section}, beyond the paper"
+
+
+def labels_in_report(wildcards):
+    """The labels of a figure in Snakemake's report, which takes {name} for a wildcard."""
+    title = title_of(wildcards.figure)
+    return {"figure": wildcards.figure, "title": title.replace("{", "{{").replace("}", "}}")}

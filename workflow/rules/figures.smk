@@ -1,18 +1,6 @@
 # Figures and their captions.
 
 
-def section_in_report(wildcards):
-    """The category of a figure in Snakemake's report."""
-    section = FIGURES[wildcards.figure]["section"]
-    return f"Section {section}" if wildcards.figure in PAPER_FIGURES else f"Section {section}, beyond the paper"
-
-
-def labels_in_report(wildcards):
-    """The labels of a figure in Snakemake's report, which takes {name} for a wildcard."""
-    title = title_of(wildcards.figure)
-    return {"figure": wildcards.figure, "title": title.replace("{", "{{").replace("}", "}}")}
-
-
 rule plot:
     """A figure."""
     input:

@@ -3,8 +3,12 @@ from pathlib import Path
 
 from conveyor import __version__
 from conveyor_pipeline.config.schema import json_schema
-from conveyor_pipeline.config.stages import FLOORS, STAGES
+from conveyor_pipeline.config.stages import STAGES
 from conveyor_pipeline.config.tables import FAMILIES
+
+
+include: "common.smk"
+
 
 # Pages made from the paper's config are part of the repository: in docs/, some of them in the project's folder.
 DOCS, PROJECT = (result("docs/"), result("docs/")) if PREFIX else ("docs/", "")
@@ -42,20 +46,6 @@ FACTS = {
     "lengths": table("operating/track_lengths"),
     "drives": table("excitation/clean_drive"),
 }
-# README, article and site state facts of these floors.
-MISSING_FLOORS = {"paper", "machine", "study"} - {*FLOORS}
-
-
-def tables_of_facts(wildcards):
-    """The tables behind the text of README, article and site; an error for another conveyor or a missing floor."""
-    check_paper("the text of README, article and site")
-    if MISSING_FLOORS:
-        raise WorkflowError(
-            f"README, article and site need all floors, but this copy lacks {' and '.join(sorted(MISSING_FLOORS))}"
-        )
-    return FACTS
-
-
 KEPT_PAGES = ("README.md", "metadata.yaml", "codecheck.yml")
 ARTICLE_PARTS = {
     "facts": result("facts.json"),

@@ -7,12 +7,6 @@ CLAIM_FILES = [table("results/claims"), result("claims.md")] if IS_PAPER else []
 TIGHTER_CLAIMS = tighter_claims(config)
 
 
-def tables_of_claims(claims):
-    """The tables that claims read; an error for another conveyor than the paper's."""
-    check_paper("the test of the paper's claims")
-    return [table(reference) for reference in references_of(claims)]
-
-
 rule claims:
     """The paper's statements."""
     input:

@@ -8,6 +8,7 @@ if config["model"].get("harmonics"):
     )
 
 
+include: "common.smk"
 include: "sweeps.smk"
 include: "motion.smk"
 include: "orbits.smk"

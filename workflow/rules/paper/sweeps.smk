@@ -1,35 +1,5 @@
 # Sweeps: one trajectory for each point of a product of axes, and the state of motion that it leads to. Several jobs share a sweep
 # of more rows than `sharing.rows`; the joined table does not depend on the number of shards.
-from conveyor_pipeline.config.entries import count_points, count_shards
-
-SHARDS = {name: count_shards(config, entry) for name, entry in config["sweeps"].items()}
-
-
-def shards_of_sweep(wildcards):
-    """All shards, in the order of their rows."""
-    return [table(f"shards/{wildcards.name}/{shard}") for shard in range(SHARDS[wildcards.name])]
-
-
-def no_input_of_shard(wildcards):
-    """No input; an error for a shard that the sweep does not have."""
-    count = SHARDS[wildcards.name]
-    if int(wildcards.shard) >= count:
-        raise WorkflowError(
-            f"sweeps.{wildcards.name} has no shard {wildcards.shard}: with this config, it has {count} from 0 on"
-        )
-    return []
-
-
-def points_of_sweep(wildcards):
-    """Number of rows of a sweep."""
-    return count_points(config["sweeps"][wildcards.name]["axes"])
-
-
-def rows_of_shard(wildcards):
-    """First row of a shard, and the row after its last one. A sweep of one shard has no number of it."""
-    rows = config["sharing"]["rows"]
-    first = int(wildcards.get("shard", 0)) * rows
-    return [first, min(first + rows, points_of_sweep(wildcards))]
 
 
 rule sweeps:

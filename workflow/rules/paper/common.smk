@@ -1,0 +1,43 @@
+# Functions that the rules of the paper share.
+from conveyor_pipeline.config.entries import count_points, count_shards
+
+SHARDS = {name: count_shards(config, entry) for name, entry in config["sweeps"].items()}
+
+
+def shards_of_sweep(wildcards):
+    """All shards, in the order of their rows."""
+    return [table(f"shards/{wildcards.name}/{shard}") for shard in range(SHARDS[wildcards.name])]
+
+
+def no_input_of_shard(wildcards):
+    """No input; an error for a shard that the sweep does not have."""
+    count = SHARDS[wildcards.name]
+    if int(wildcards.shard) >= count:
+        raise WorkflowError(
+            f"sweeps.{wildcards.name} has no shard {wildcards.shard}: with this config, it has {count} from 0 on"
+        )
+    return []
+
+
+def points_of_sweep(wildcards):
+    """Number of rows of a sweep."""
+    return count_points(config["sweeps"][wildcards.name]["axes"])
+
+
+def rows_of_shard(wildcards):
+    """First row of a shard, and the row after its last one. A sweep of one shard has no number of it."""
+    rows = config["sharing"]["rows"]
+    first = int(wildcards.get("shard", 0)) * rows
+    return [first, min(first + rows, points_of_sweep(wildcards))]
+
+
+def tables_of_claims(claims):
+    """The tables that claims read; an error for another conveyor than the paper's."""
+    check_paper("the test of the paper's claims")
+    return [table(reference) for reference in references_of(claims)]
+
+
+def findings_of(claims):
+    """The modules that compute the findings of claims, as paths below scripts/ without ".py"."""
+    names = sorted({claim["finding"].split(".")[0] for claim in claims.values()})
+    return [module for name in names for module in figure_modules(name, "claims")]
