@@ -34,6 +34,10 @@ TINY = {
     "attractors": {"acceleration": {"num": 3}, "transient": 20, "strobes": 8},
     "sweeps": {"amplitudes": COARSE, "on_plate": {"axes": {"acceleration": {"num": 3}}}},
     "estimates": {"phase": COARSE_PAIRS},
+    # Tables of the chart on where to run a conveyor, which the default target makes for every config.
+    "operating": {"acceleration": {"num": 4}, "dimensionless": {"resolution": 0.2}, "starts": 16},
+    "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},
+    "drift": {"effort": 0.06},
 }
 # Default files below config/, without ".yaml": the model first.
 CONFIG_FILES = tuple(file.relative_to(ROOT / "config").with_suffix("").as_posix() for file in DEFAULT_FILES)
