@@ -11,6 +11,8 @@ CALIBRATED_OVERLAY = [result("calibrated.yaml")] if IS_CALIBRATED else []
 # Of the target `machine`, for any conveyor.
 OPERATING_FIGURES = listed_figures("operating", "basin_stability", "transit", "track")
 OPERATING_FILES = [result("operating/chart.md"), *figure_files(OPERATING_FIGURES), *caption_files(OPERATING_FIGURES)]
+CHART_TABLES = [f"operating/{name}" for name in ("transit", "shares", "regimes", "advice", "changes")]
+BUILT += [*map(table, CHART_TABLES), result("operating/chart.md")]
 
 
 rule operating:
@@ -117,9 +119,7 @@ rule track:
 rule operating_chart:
     """The operating chart in words."""
     input:
-        **tables_of(
-            "operating/transit", "operating/shares", "operating/regimes", "operating/advice", "operating/changes"
-        ),
+        **tables_of(*CHART_TABLES),
         template=source("workflow/templates/operating_chart.md"),
     output:
         chart=result("operating/chart.md"),
