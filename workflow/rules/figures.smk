@@ -29,7 +29,7 @@ rule caption:
     input:
         # Snakemake's report shows the picture with the caption below it, so that it needs both.
         report(
-            ancient(figure_file("{figure}", "png")),
+            figure_file("{figure}", "png"),
             caption="../report/figure.rst",
             category=section_in_report,
             labels=labels_in_report,
