@@ -75,7 +75,7 @@ def test_every_key_has_a_description():
         for name, item in place.items()
         if not any("description" in one for one in options_of(item))
     ]
-    assert len(places) > 60
+    assert len(places) > 40  # also without the floor machine
     assert lacking == []
 
 
