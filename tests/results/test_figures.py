@@ -31,6 +31,7 @@ UNITS = {
     "ms",
     "rad",
     "1/s",
+    "m/s per rad",
     "m²/s²",
     "10$^{-3}$ m²/s²",
     "N/m",
