@@ -32,6 +32,7 @@ UNITS = {
     "rad",
     "1/s",
     "m/s per rad",
+    "time steps",
     "m²/s²",
     "10$^{-3}$ m²/s²",
     "N/m",
