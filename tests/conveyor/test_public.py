@@ -299,6 +299,7 @@ def test_attractors_of_long_periods_are_found():
 INTERRUPTED = """
 import os, signal, threading, numpy as np
 from conveyor import *
+signal.signal(signal.SIGINT, signal.default_int_handler)  # shells let background jobs ignore it
 table = parameter_table(Conveyor(), acceleration=[80.0, 81.0], z0=3e-4)
 calls = {
     "follow_attractor": lambda n: follow_attractor(table, transient=n, strobes=2, tolerance=1e-10),

@@ -158,7 +158,7 @@ def test_breakpoint_works_in_a_job(edited):
 
 def test_dry_runs_say_why_a_job_runs(built):
     """As README and guides promise; the profile must not hide it."""
-    run = built.snakemake("--dry-run", "--forcerun", "plot", "--", "figures/fig03.pdf")
+    run = built.snakemake("figures/fig03.pdf", "--dry-run", "--forcerun", "plot")
     assert "reason: Forced execution" in run.stdout
 
 
