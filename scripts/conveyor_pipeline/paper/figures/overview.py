@@ -10,8 +10,8 @@ from conveyor_pipeline.paper.claims.about_proofs import lowest_fold
 SHADE = "0.93"
 # Colours of the exponents of the attractors that are followed over the amplitude; the upper branch hides the lower one.
 BRANCHES = {
-    "down": ("#56B4E9", "converged, decreasing $\\hat{a}$"),
-    "up": (style.CONVERGED, "converged, increasing $\\hat{a}$"),
+    "down": ("#56B4E9", "converged, falling $\\hat{a}$"),
+    "up": (style.CONVERGED, "converged, rising $\\hat{a}$"),
 }
 LOWEST = -30.0  # 1/s, end of the axis of the exponents
 
@@ -34,7 +34,7 @@ def draw_exponents(axes: Axes, spectrum: pd.DataFrame, estimate: pd.DataFrame) -
     look = {"color": style.EULER, "linewidth": 0.9, "label": "estimate of Fig. 22"}
     axes.plot(estimate.acceleration, estimate["lambda"], **look)
     axes.set_ylabel("Lyapunov\nexponent in 1/s")
-    axes.legend(loc="lower left", bbox_to_anchor=(0.06, 0.56))
+    axes.legend(loc="upper left", bbox_to_anchor=(0.06, 1.04), handlelength=1.0, labelspacing=0.1)
 
 
 def plot(
@@ -72,7 +72,7 @@ def plot(
         middle = 0.5 * (critical_acceleration + accumulation)
         style.note(below, "chaos in\nthe paper", (middle, 0.97), ha="center", **top)
     diagram.tick_params(labelbottom=False)
-    below.set_ylim(LOWEST, 1.5 * spectrum.lambda_1.max())
+    below.set_ylim(LOWEST, 2.0 * spectrum.lambda_1.max())
     below.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
     below.set_xlabel(style.AMPLITUDE)
 
