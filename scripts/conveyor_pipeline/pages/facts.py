@@ -121,7 +121,9 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         "right_readings": right_readings,
         "moved": moved_impacts.numbers(moved=tables["moved"]),
         "paper_two_states": claims.paper["C02"],
-        "heights_aside": fig10.numbers(converged=tables["edge"], euler=tables["edge_euler"])["aside"],
+        "heights_aside": fig10.numbers(converged=tables["edge"], fit=tables["fit"], euler=tables["edge_euler"])[
+            "aside"
+        ],
         "longest_period": MAX_PERIOD,
         "epsilon": tables["estimate"].attrs["epsilon"],
         "valley": flat_part(tables["fit"]).B,
