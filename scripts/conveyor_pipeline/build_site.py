@@ -1,9 +1,10 @@
 """The script of the rule that makes the site: it collects pages, pictures and files, and runs Sphinx."""
 
-import os
 import sys
 import tempfile
 from pathlib import Path
+
+import numba
 
 # Snakemake puts the folder of all packages last on the path; an installed copy of the library would come first.
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -13,7 +14,7 @@ from conveyor_pipeline.pages import site
 
 if __name__ == "__main__":
     # Compiled functions have no signature for the documentation. Must be set before Sphinx imports the library.
-    os.environ["NUMBA_DISABLE_JIT"] = "1"
+    numba.config.DISABLE_JIT = True
     with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
         given = snakemake.input
         extra = {"figures": given.pdf, "": [given.article, given.companion]}

@@ -21,7 +21,8 @@ import llvmlite
 import numba
 from numba.core.caching import UserWideCacheLocator
 
-if numba.config.DISABLE_JIT:
+# Not numba.config.DISABLE_JIT, which the documentation sets, because compiled functions have no signature there.
+if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
     raise ImportError("NUMBA_DISABLE_JIT is set, but this library runs only as compiled code; unset the variable")
 
 SOLVER = Path(__file__).resolve().parent
