@@ -26,7 +26,7 @@ COARSE = {
         "edge_euler": {"axes": {"acceleration": [29.0, 38.0]}, "scan": {"num": 3}},
     },
     "regressions": {"height": {"valley": {"num": 9}}},
-    "orbits": {"max_period": 1},
+    "orbits": {"seeds": [], "max_period": 1},
     "attractors": FEW | {"transient": 50, "strobes": 8},
     "operating": FEW | {"dimensionless": {"resolution": 0.2}, "starts": 16},
     "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},

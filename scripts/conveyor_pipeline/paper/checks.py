@@ -38,7 +38,7 @@ def times(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 
 def orbits(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     low, high = config["orbits"]["limits"]
-    for place, seed in enumerate(config["orbits"].get("seeds", [])):
+    for place, seed in enumerate(config["orbits"]["seeds"]):
         if not low < seed["acceleration"] < high:
             yield (
                 f"orbits.limits = {[low, high]!r} m/s² must hold the amplitude of orbits.seeds[{place}], "

@@ -105,7 +105,7 @@ def explore_branches(parameters: np.ndarray, orbits: list[Orbit], settings: dict
     copies cannot be recognised as one.
     """
     options = tuple(settings["limits"]), settings["max_period"]
-    if "seeds" in settings:
+    if settings["seeds"]:
         return explore_bifurcations(parameters, orbits, *options, MOST_ORBITS)
     branches = []
     for period in sorted({orbit.period for orbit in orbits}):
@@ -162,7 +162,7 @@ def find_cascade(
     parameters: np.ndarray, branches: list[Branch], orbits: list[Orbit], settings: dict
 ) -> list[Bifurcation]:
     """The doubling cascade of the config's last seed or of the first jumping orbit; an empty list if there is none."""
-    if "seeds" in settings:
+    if settings["seeds"]:
         return doubling_cascade(parameters, *first_doublings(parameters, branches, orbits[-1]))
     jumps = [orbit for orbit in orbits if orbit.longest_flight >= LONG_FLIGHT]
     for orbit in sorted(jumps, key=lambda orbit: (orbit.period, orbit.acceleration)):

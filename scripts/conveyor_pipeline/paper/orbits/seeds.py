@@ -37,7 +37,7 @@ def follow_seeds(settings: dict) -> list[Orbit]:
         if orbit is None:
             raise JobError(
                 f"orbits.seeds: {seed} leads to no stable orbit of up to {settings['max_period']} cycles; "
-                "choose another amplitude or more cycles"
+                "choose another amplitude or more cycles, or give orbits.seeds: [] to search all amplitudes"
             )
         orbits.append(orbit)
     return orbits
@@ -64,4 +64,4 @@ def seeds(parameters: np.ndarray, settings: dict) -> list[Orbit]:
     JobError
         if a seed of the config does not lead to one
     """
-    return follow_seeds(settings) if "seeds" in settings else list(search_seeds(parameters, settings))
+    return follow_seeds(settings) if settings["seeds"] else list(search_seeds(parameters, settings))

@@ -41,9 +41,9 @@ class SeedOrbit(TypedDict):
 
 
 class Orbits(TypedDict):
-    seeds: NotRequired[
-        described(list[SeedOrbit], "initial conditions of the first orbits", min_length=1, max_length=1000)
-    ]
+    seeds: described(
+        list[SeedOrbit], "initial conditions of the first orbits; empty: all amplitudes are searched", max_length=1000
+    )
     limits: interval(Acceleration, "amplitudes between which branches are followed")
     max_period: whole("longest period that is followed", 1, 64, "excitation cycles")
     model: NotRequired[Model]
