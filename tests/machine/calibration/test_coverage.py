@@ -24,9 +24,8 @@ def log_uniform(ends, random):
     return math.exp(random.uniform(*np.log(ends)))
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("seed", [0, 1, 2])
-def test_the_intervals_contain_the_true_values(seed):
+def calibrate_random_conveyor(seed):
+    """Whether each interval contains the true value, by the parameter, for a conveyor whose model is not rejected."""
     random = np.random.default_rng([48, seed])
     config = si_config()
     settings = settings_of(config, "calibration/parameters") | {"measurements": "mine.csv"}
@@ -52,5 +51,13 @@ def test_the_intervals_contain_the_true_values(seed):
     tables = make(text, settings | box | {"model": model}, threads=2)
     assert all(tables["fit"]["explained"])
     found = tables["parameters"]
-    for name, least, most in zip(*(found[key] for key in ("parameter", "low", "high")), strict=True):
-        assert least <= true[name] <= most
+    intervals = zip(*(found[key] for key in ("parameter", "low", "high")), strict=True)
+    return {name: least <= true[name] <= most for name, least, most in intervals}
+
+
+@pytest.mark.long
+def test_the_intervals_contain_the_true_values():
+    """More than two of nine 95 % intervals miss the true value in less than one of a hundred cases."""
+    contained = [inside for seed in range(3) for inside in calibrate_random_conveyor(seed).values()]
+    assert len(contained) == 9
+    assert sum(contained) >= 7
