@@ -111,7 +111,7 @@ def test_orbits_on_a_known_branch_start_no_new_branch(monkeypatch):
         "explore_bifurcations",
         lambda parameters, seeds, *rest: [branch(one, [one]) for seed in seeds for one in found[seed.name]],
     )
-    settings = {"limits": [20.0, 90.0], "max_period": 2}
+    settings = {"seeds": [], "limits": [20.0, 90.0], "max_period": 2}
     assert [one.name for one in branches.explore_branches(None, starts, settings)] == ["once", "double", "apart"]
 
 
