@@ -78,7 +78,7 @@ def draw_again(name):
         section, table = reference.split("/")
         paths[role] = RESULTS / (f"{table}.parquet" if section == "results" else f"{reference}.parquet")
         expected[paths[role]] = [kind_of(reference)]
-    return draw(name, paths, expected, entry.get("settings", {}))
+    return draw(name, paths, expected, entry.get("settings", {}) | entry.get("marks", {}))
 
 
 @pytest.fixture(scope="module", params=ENTRIES)
