@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 
+from conveyor.parameters import RANGES, TENSION_MODES
 from conveyor.solver import model
-from conveyor.solver.model import RANGES, TENSION_MODES, Conveyor, Start, pack
+from conveyor.solver.model import Conveyor, Start, pack
 
 # Shares of the random points with a usual exponent, a part that starts on the plate, a plate at rest, or no damping.
 SHARE = 0.1

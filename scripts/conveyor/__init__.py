@@ -3,10 +3,8 @@
 The public names are those in `__init__.pyi`; each is imported when it is first used, so that a program which needs
 names and units alone does not wait for NumPy and Numba. `README.md` says how the library works and what to read first.
 
-Conveyor, Start, parameter_table and the functions that follow trajectories from a conveyor or a table (simulate, sweep,
-transits, classify, basin, periodic_orbit, find_orbit, continue_orbit, follow_attractor, lyapunov_spectrum) check all
-arguments. They raise ValueError or TypeError, which names the argument that cannot be used. All other errors are in the
-docstrings.
+Functions check their arguments. They raise ValueError or TypeError, which names the argument that cannot be used. All
+other errors are in the docstrings.
 """
 
 import lazy_loader

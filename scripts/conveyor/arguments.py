@@ -91,6 +91,22 @@ def check_array(name: str, values: object, low: float, high: float, unit: str = 
     return numbers
 
 
+def check_parameter(name: str, value: object) -> float:
+    """Return `value` as a float; raise ValueError that names the parameter, its unit and its range if it is outside.
+
+    Examples
+    --------
+    >>> check_parameter("frequency", 50)
+    50.0
+    """
+    low, high = RANGES[name]
+    if not is_real(value):
+        raise ValueError(f"{name} must be a number in {UNITS[name]}, got {value!r}")
+    if not low <= value <= high:
+        raise ValueError(f"{name} = {value!r} is outside [{low:g}, {high:g}] {UNITS[name]}")
+    return float(value)
+
+
 def check_time(name: str, value: object) -> float:
     """`value`, a duration or a step (s), as a float; ValueError unless it is positive and at most LONGEST."""
     return check_number(name, value, 0.0, LONGEST, "s", above=True)

@@ -204,9 +204,7 @@ def sample_runs(
     return Columns(samples | {"impact_speed": impact_speed, "peak_force": peak_force, "status": status})
 
 
-def continued(
-    parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float | np.ndarray
-) -> np.ndarray:
+def restart(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float | np.ndarray) -> np.ndarray:
     """The table of trajectories that continue runs of `parameters`.
 
     z_end, vz_end : where the runs ended, m and m/s, in the shape of `parameters`
@@ -216,7 +214,7 @@ def continued(
     --------
     >>> parameters = parameter_table(Conveyor(), z0=[0.0, 3e-4])
     >>> runs = sweep(parameters, duration=0.5)
-    >>> continued(parameters, runs.z_end, runs.vz_end, 0.5)["psi0"].tolist()  # after 25 cycles
+    >>> restart(parameters, runs.z_end, runs.vz_end, 0.5)["psi0"].tolist()  # after 25 cycles
     [0.0, 0.0]
     """
     later = parameters.copy()

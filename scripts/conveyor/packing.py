@@ -5,7 +5,6 @@ same numbers as rows of float64, in an order that nothing else needs to know.
 """
 
 import math
-from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -73,23 +72,22 @@ def parameter_table(conveyor: Conveyor, start: Start = AT_REST, **values: ArrayL
     table = np.full(shape, as_table(pack(conveyor, start)))
     if conveyor.static_friction is not None:
         arrays = {"static_friction": conveyor.static_friction} | arrays
-    set_parameters(table, arrays)
-    return table
+    return replace_parameters(table, **arrays)
 
 
-def set_parameters(table: np.ndarray, values: Mapping[str, ArrayLike]) -> None:
-    """Write `values` of parameters, numbers or arrays, into a table; tension is a word or an array of words.
+def replace_parameters(parameters: np.ndarray, **values: ArrayLike) -> np.ndarray:
+    """A copy of a table, or of a row, with new `values` of some parameters; tension is a word or an array of words.
 
     A new friction without a new static_friction is the static friction, too. ValueError for a static_friction below
     friction.
 
     Examples
     --------
-    >>> table = parameter_table(Conveyor(), z0=[0.0, 1e-4])
-    >>> set_parameters(table, {"friction": 0.2, "tension": "clip"})
+    >>> table = replace_parameters(parameter_table(Conveyor(), z0=[0.0, 1e-4]), friction=0.2, tension="clip")
     >>> table["static_friction"].tolist()
     [0.2, 0.2]
     """
+    table = np.array(parameters)
     for name, column in values.items():
         if name == "tension":
             column = np.vectorize(TENSION_MODES.index, otypes=[np.float64])(column)
@@ -98,18 +96,6 @@ def set_parameters(table: np.ndarray, values: Mapping[str, ArrayLike]) -> None:
         table["static_friction"] = table["friction"]
     for row in table[table["static_friction"] < table["friction"]].flat[:1]:
         check_static_friction(row["friction"].item(), row["static_friction"].item())
-
-
-def replace_parameters(parameters: np.ndarray, **values: ArrayLike) -> np.ndarray:
-    """A copy of a table, or of a row, with new `values` of some parameters, see `set_parameters`.
-
-    Examples
-    --------
-    >>> replace_parameters(parameter_table(Conveyor()), acceleration=50.0)["acceleration"].item()
-    50.0
-    """
-    table = np.array(parameters)
-    set_parameters(table, values)
     return table
 
 

@@ -16,6 +16,7 @@ from project import si_config  # noqa: E402
 from test_inference import SETTINGS, measured  # noqa: E402
 
 import conveyor  # noqa: E402
+from conveyor.analysis.bifurcations.periodic_orbits import ReturnMap  # noqa: E402
 from conveyor.certificates.balls import exactly, precision  # noqa: E402
 from conveyor.certificates.law import Accuracy, law_of  # noqa: E402
 from conveyor.certificates.orbit import prove_orbit  # noqa: E402
@@ -55,7 +56,7 @@ def orbits():
 def certificate():
     """The jumping motion at the default amplitude."""
     orbit = conveyor.periodic_orbit(conveyor.Conveyor(), conveyor.Start(3e-4))
-    returns = conveyor.ReturnMap(conveyor.parameter_table(conveyor.Conveyor()), 1)
+    returns = ReturnMap(conveyor.parameter_table(conveyor.Conveyor()), 1)
     with precision(128, 24):
         shooting = Shooting(law_of(conveyor.Conveyor()), Accuracy(order=24, tolerance=1e-22), 1)
         strobe = returns.scaled(orbit.acceleration, orbit.state)[:2]

@@ -23,7 +23,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..parameters import HARMONIC, MOST_HARMONICS, PARAMETERS, RANGES, TENSION_MODES, UNITS
+from ..arguments import check_parameter
+from ..parameters import HARMONIC, MOST_HARMONICS, PARAMETERS, TENSION_MODES
 from . import plate
 from .jit import compiled_inline
 
@@ -32,22 +33,6 @@ EXPONENT, GRAVITY, INCLINATION, PHASE_SHIFT, STATIC_FRICTION, TENSION, Z0, VZ0 =
 # The parameters of a Conveyor that are numbers, in this order.
 numbers_of = attrgetter(*PARAMETERS[:TENSION])
 TENSION_ALLOW, TENSION_FRICTIONLESS, TENSION_CLIP = range(len(TENSION_MODES))
-
-
-def check_parameter(name: str, value: float) -> float:
-    """Return `value` as a float; raise ValueError that names the parameter, its unit and its range if it is outside.
-
-    Examples
-    --------
-    >>> check_parameter("frequency", 50)
-    50.0
-    """
-    low, high = RANGES[name]
-    if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise ValueError(f"{name} must be a number in {UNITS[name]}, got {value!r}")
-    if not low <= value <= high:
-        raise ValueError(f"{name} = {value!r} is outside [{low:g}, {high:g}] {UNITS[name]}")
-    return float(value)
 
 
 def check_static_friction(friction: float, static_friction: float) -> None:
@@ -203,12 +188,12 @@ def normal_gravity(parameters):
     return parameters[GRAVITY] * math.cos(parameters[INCLINATION])
 
 
-def conveyor_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarray]:
+def plate_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarray]:
     """Position and velocity of the plate (Eqs. 3, 4, 10) at `times` (s): x, z in m; vx, vz in m/s; same shape.
 
     Examples
     --------
-    >>> plate = conveyor_motion(Conveyor(acceleration=40.0), np.array([0.0, 0.01]))  # at its lowest and highest point
+    >>> plate = plate_motion(Conveyor(acceleration=40.0), np.array([0.0, 0.01]))  # at its lowest and highest point
     >>> (1e6 * plate["z"]).round(1).tolist()  # µm
     [-84.3, 84.3]
     """

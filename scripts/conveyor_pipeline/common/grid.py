@@ -5,7 +5,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from conveyor import TENSION_MODES, Conveyor, Start, check_parameter, parameter_table, set_parameters
+from conveyor import Conveyor, Start, parameter_table, replace_parameters
+from conveyor.arguments import check_parameter
+from conveyor.parameters import TENSION_MODES
 
 Axis = Sequence[float | str] | Mapping[str, float]
 
@@ -85,5 +87,5 @@ def product(
     # Static friction is set last: its lower limit depends on the friction coefficient, which may be an axis.
     alone = {name: value for name, value in model.items() if name != "static_friction"}
     parameters = np.full(len(next(iter(columns.values()))), row_of(alone))
-    set_parameters(parameters, {name: model[name] for name in model if name not in alone} | columns)
-    return columns, parameters
+    values = {name: model[name] for name in model if name not in alone} | columns
+    return columns, replace_parameters(parameters, **values)

@@ -4,17 +4,10 @@ import math
 
 import numpy as np
 
-from conveyor import (
-    DEFAULT_TOLERANCE,
-    INITIAL_CONDITION,
-    NO_ATTRACTORS,
-    AttractorTable,
-    Columns,
-    classify,
-    continued,
-    distinct_conveyors,
-    find_attractors,
-)
+from conveyor import DEFAULT_TOLERANCE, Columns, classify, restart
+from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS, AttractorTable, distinct_conveyors
+from conveyor.analysis.attractors.search import find_attractors
+from conveyor.packing import INITIAL_CONDITION
 from conveyor_pipeline.common import grid
 
 # Conveyors per batch: the attractors of a conveyor take some 30 kB of memory.
@@ -93,4 +86,4 @@ def label_entry(parameters: np.ndarray, settings: dict, **options) -> Columns:
 
 def label_ends(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Columns:
     """The labels of runs of `parameters`; the converged solution continues them from their ends (m, m/s)."""
-    return label_entry(continued(parameters, z_end, vz_end, settings["duration"]), settings, **options)
+    return label_entry(restart(parameters, z_end, vz_end, settings["duration"]), settings, **options)

@@ -7,17 +7,8 @@ from pydantic import AfterValidator, BeforeValidator, Discriminator, Field, Tag,
 from pydantic_core import PydanticCustomError
 from typing_extensions import TypedDict
 
-from conveyor import (
-    DESCRIPTIONS,
-    FIXED_STEP_METHODS,
-    HARMONIC,
-    HARMONICS,
-    MOST_HARMONICS,
-    PARAMETERS,
-    RANGES,
-    TENSION_MODES,
-    UNITS,
-)
+from conveyor import PARAMETERS, RANGES, UNITS
+from conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS, HARMONIC, HARMONICS, MOST_HARMONICS, TENSION_MODES
 
 LONGEST_NAME = 64  # characters: names become file names
 LONGEST_LIST = 10_000  # values; a longer axis is written as {start, stop, num}

@@ -6,7 +6,7 @@ config, as SECTION/NAME, with the functions that return their settings. Imported
 
 from collections.abc import Iterable
 
-from conveyor import TANGENTIAL
+from conveyor.parameters import TANGENTIAL
 
 # Parameters of an initial condition, for tables that draw it from a box.
 INITIAL_CONDITION = ("psi0", "z0", "vz0")

@@ -2,7 +2,7 @@
 
 import math
 
-from conveyor import TANGENTIAL
+from conveyor.parameters import TANGENTIAL
 from conveyor_pipeline.common.table_settings import without_tangential
 from conveyor_pipeline.config.stages import declared
 

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from conveyor import normal_gravity
+from conveyor.parameters import normal_gravity
 from conveyor_pipeline.config.files import merge
 from conveyor_pipeline.config.schema import child, schema_at, unit_of
 from conveyor_pipeline.config.stages import declared

@@ -5,7 +5,7 @@ import io
 import numpy as np
 from PIL import Image
 
-from conveyor import Conveyor, Run, Start, conveyor_motion, simulate
+from conveyor import Conveyor, Run, Start, plate_motion, simulate
 from conveyor_pipeline.figures import style
 from conveyor_pipeline.pages import pictures
 
@@ -29,7 +29,7 @@ def draw_cycle() -> style.Figure:
     run = simulate(conveyor, JUMPING, duration=1.0)
     begin = run.duration - 2.0 / conveyor.frequency
     times = np.linspace(begin, run.duration, 2001)
-    part, plate = run.sample(times), conveyor_motion(conveyor, times)
+    part, plate = run.sample(times), plate_motion(conveyor, times)
     figure = style.figure(style.PAGE, 66.0)
     axes = figure.subplots()
     shade(axes, times, part["contact_force"] > 0.0, "contact (Taylor series)")
@@ -54,7 +54,7 @@ def draw_contact() -> style.Figure:
     end = event_times(run, "separation", begin)[0]
     # More samples towards both ends, where the square root is steep.
     times = begin + (end - begin) * 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, 4001)))
-    penetration = np.maximum(conveyor_motion(conveyor, times)["z"] - run.sample(times)["z"], 0.0)
+    penetration = np.maximum(plate_motion(conveyor, times)["z"] - run.sample(times)["z"], 0.0)
     root = np.sqrt(penetration)
     middle = 0.5 * (root[1:] + root[:-1])
     own_time = np.concatenate([[0.0], np.cumsum(np.diff(times) / middle)])
@@ -75,7 +75,7 @@ def draw_friction() -> style.Figure:
     conveyor = Conveyor(acceleration=2.0)
     run = simulate(conveyor, Start("conveyor"), duration=0.2)
     times = np.linspace(run.duration - 2.0 / conveyor.frequency, run.duration, 2001)
-    part, plate = run.sample(times), conveyor_motion(conveyor, times)
+    part, plate = run.sample(times), plate_motion(conveyor, times)
     figure = style.figure(style.PAGE, 60.0)
     axes = figure.subplots()
     shade(axes, times, np.abs(part["vx"] - plate["vx"]) < 1e-9, "stick")
@@ -97,7 +97,7 @@ def draw_states() -> style.Figure:
         cycles = np.arange(1, 121)
         run = simulate(conveyor, Start(z=height), duration=(cycles[-1] + 0.5) / conveyor.frequency)
         times = cycles / conveyor.frequency
-        gap = run.sample(times)["z"] - conveyor_motion(conveyor, times)["z"]
+        gap = run.sample(times)["z"] - plate_motion(conveyor, times)["z"]
         axes = panels[int(state == "chaos")]
         axes.plot(
             cycles, 1e3 * gap, ".", color=style.STATE_COLOURS[state], label=f"{state}, $z_0$ = {1e3 * height:g} mm"

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from conveyor import MAX_PERIOD
+from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from conveyor_pipeline.machine.excitation import clean_drive
 from conveyor_pipeline.machine.operating.parts import POPULATIONS, differences
 from conveyor_pipeline.machine.operating.regimes import SEVERAL

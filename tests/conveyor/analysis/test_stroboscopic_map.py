@@ -8,7 +8,7 @@ import pytest
 from conveyor import Conveyor, Start, simulate
 from conveyor.analysis import stroboscopic_map
 from conveyor.solver import contact, contact_law
-from conveyor.solver.model import TENSION_MODES, conveyor_motion, pack
+from conveyor.solver.model import TENSION_MODES, pack, plate_motion
 from conveyor.solver.status import OK
 
 CYCLES = 6
@@ -37,7 +37,7 @@ def test_map_is_the_motion_at_whole_cycles(tension, exponent, acceleration, z0, 
     run = simulate(conveyor, Start(z0), duration=duration, tolerance=1e-12)
     times = np.arange(1, CYCLES + 1) / conveyor.frequency
     times[-1] = duration
-    sample, plate = run.sample(times), conveyor_motion(conveyor, times)
+    sample, plate = run.sample(times), plate_motion(conveyor, times)
     unit = 9.81 / (2.0 * math.pi * conveyor.frequency)
     assert strobes[:, 0] == pytest.approx(plate["z"] - sample["z"], abs=1e-8 * unit / 314.0)
     assert strobes[:, 1] == pytest.approx(plate["vz"] - sample["vz"], abs=1e-8 * unit)

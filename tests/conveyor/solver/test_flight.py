@@ -5,10 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start, first_impacts, parameter_table, simulate, sweep
-from conveyor.analysis.bifurcations.bifurcation_diagram import follow_attractor
+from conveyor import Conveyor, Start, parameter_table, simulate, sweep
+from conveyor.analysis.basins.first_impact import first_impacts
+from conveyor.analysis.bifurcations.bifurcation_diagram import bifurcation_diagram
+from conveyor.parameters import RANGES
 from conveyor.solver import contact, flight
-from conveyor.solver.model import RANGES, conveyor_motion, pack
+from conveyor.solver.model import pack, plate_motion
 
 TURN = 2.0 * math.pi
 
@@ -98,7 +100,7 @@ def test_a_long_fall_ends_on_the_plate():
     assert first["kind"] == "impact"
     assert math.sqrt(2.0 * (1.0 - stroke) / 1e-3) <= first["time"] <= math.sqrt(2.0 * (1.0 + stroke) / 1e-3)
     times = np.linspace(0.0, 60.0, 600_001)
-    gaps = run.sample(times)["z"] - conveyor_motion(conveyor, times)["z"]
+    gaps = run.sample(times)["z"] - plate_motion(conveyor, times)["z"]
     assert gaps.min() > -1e-3
     assert run.max_gap == pytest.approx(gaps.max(), rel=1e-6)
 
@@ -116,6 +118,6 @@ def test_every_caller_of_a_failed_search_says_so():
     runs = sweep(parameters, duration=0.1)
     assert runs.status == "impact not found"
     assert math.isnan(runs.z_end) and math.isnan(runs.mean_velocity)
-    _, (status,) = follow_attractor(parameters[None], transient=0, strobes=1, tolerance=1e-8)
+    _, (status,) = bifurcation_diagram(parameters[None], transient=0, strobes=1, tolerance=1e-8)
     assert status == "impact not found"
     assert math.isnan(first_impacts(parameters[None]).time[0])

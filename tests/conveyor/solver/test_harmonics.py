@@ -14,21 +14,20 @@ from conveyor import (
     Start,
     classify,
     conveyor_and_start,
-    conveyor_motion,
-    find_attractors,
     groups_of,
     lyapunov_spectrum,
     parameter_table,
     periodic_orbit,
-    plate_heights,
-    plate_peaks,
+    plate_motion,
     simulate,
     sweep,
     throw_number,
     transits,
 )
 from conveyor.analysis import stroboscopic_map
+from conveyor.analysis.attractors.search import find_attractors
 from conveyor.methods import scipy_integrators
+from conveyor.packing import plate_heights, plate_peaks
 from conveyor.solver import contact, plate
 from conveyor.solver.model import pack
 
@@ -161,9 +160,9 @@ def test_energy_balance():
     edges = np.concatenate([[0.0], np.unique(run.events["time"]), [0.05]])
     nodes, weights = np.polynomial.legendre.leggauss(60)
     times = (0.5 * (edges[1:] + edges[:-1])[:, None] + 0.5 * np.diff(edges)[:, None] * nodes).ravel()
-    sample, plate = run.sample(times), conveyor_motion(conveyor, times)
+    sample, plate = run.sample(times), plate_motion(conveyor, times)
     work = np.sum((0.5 * np.diff(edges)[:, None] * weights).ravel() * sample["contact_force"] * plate["vz"])
-    ends, plate = run.sample(np.array([0.0, 0.05])), conveyor_motion(conveyor, np.array([0.0, 0.05]))
+    ends, plate = run.sample(np.array([0.0, 0.05])), plate_motion(conveyor, np.array([0.0, 0.05]))
     depth = np.maximum(plate["z"] - ends["z"], 0.0)
     energy = conveyor.mass * (0.5 * ends["vz"] ** 2 + conveyor.gravity * ends["z"])
     energy += conveyor.stiffness / 2.5 * depth**2.5
@@ -174,7 +173,7 @@ def test_plate_moves_as_defined():
     """Velocities and accelerations are derivatives of the positions and velocities, which have no mean."""
     conveyor = random_conveyor(np.random.default_rng(7))
     times, h = np.arange(500) / 500 / conveyor.frequency, 1e-6
-    plate, before, after = (conveyor_motion(conveyor, times + shift) for shift in (0.0, -h, h))
+    plate, before, after = (plate_motion(conveyor, times + shift) for shift in (0.0, -h, h))
     expected = np.array([accelerations(conveyor, t) for t in times]).T
     for name, acceleration in zip("zx", expected, strict=True):
         assert np.allclose((after[name] - before[name]) / (2.0 * h), plate[f"v{name}"], atol=1e-6)
@@ -219,7 +218,7 @@ def test_no_motion_fails(waves, acceleration, angle, exponent, tension, phase, z
     run = simulate(conveyor, Start(z=z), duration=0.1)
     assert run.status == "ok"
     times = np.linspace(0.0, 0.1, 3001)
-    sample, plate = run.sample(times), conveyor_motion(conveyor, times)
+    sample, plate = run.sample(times), plate_motion(conveyor, times)
     assert all(np.isfinite(values).all() for values in sample.values())
     gap = sample["z"] - plate["z"]
     assert gap.max() <= run.max_gap + 1e-12
@@ -345,7 +344,7 @@ def test_peaks_of_the_plate_are_those_of_its_dense_motion():
     for _ in range(20):
         conveyor = random_conveyor(generator)
         times = np.linspace(0.0, 1.0 / conveyor.frequency, 20_001)
-        motion = conveyor_motion(conveyor, times)
+        motion = plate_motion(conveyor, times)
         peaks = plate_peaks(parameter_table(conveyor, psi0=[0.0, 1.0]))
         assert peaks.vx == pytest.approx(np.abs(motion["vx"]).max(), rel=1e-6)
         displacement = math.hypot(np.abs(motion["x"]).max(), np.abs(motion["z"]).max())

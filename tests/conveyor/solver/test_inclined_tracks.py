@@ -12,7 +12,7 @@ from reference import reference_states
 from scipy.integrate import simpson
 
 from conveyor import Conveyor, Start, conveyor_and_start, parameter_table, simulate, sweep
-from conveyor.solver.model import conveyor_motion
+from conveyor.solver.model import plate_motion
 
 AT_REST = Conveyor(acceleration=0.0)
 FEEDER = Conveyor(acceleration=40.0, inclination=0.08, phase_shift=0.7, static_friction=0.2, psi0=0.3)
@@ -104,7 +104,7 @@ def test_a_turn_of_the_phase_shift_changes_nothing_but_roundings():
 def test_the_plate_moves_on_an_ellipse():
     """A quarter turn ahead with a_x = a_z is a circle."""
     conveyor = Conveyor(angle=0.25 * math.pi, phase_shift=0.5 * math.pi)
-    plate = conveyor_motion(conveyor, np.linspace(0.0, 0.02, 50))
+    plate = plate_motion(conveyor, np.linspace(0.0, 0.02, 50))
     radius = conveyor.acceleration * math.sin(conveyor.angle) / (100.0 * math.pi) ** 2
     np.testing.assert_allclose(np.hypot(plate["x"], plate["z"]), radius, rtol=1e-12)
     np.testing.assert_allclose(plate["x"] * plate["vx"] + plate["z"] * plate["vz"], 0.0, atol=1e-15)
@@ -133,7 +133,7 @@ def test_friction_falls_from_static_to_sliding_where_a_slip_begins():
         np.testing.assert_allclose(np.abs(sample["friction_force"]) / sample["contact_force"], coefficient, rtol=1e-5)
     # The part slips in the direction in which friction held it back.
     later = slips + 1e-6
-    slip = conveyor_motion(conveyor, later)["vx"] - run.sample(later)["vx"]
+    slip = plate_motion(conveyor, later)["vx"] - run.sample(later)["vx"]
     pull = 8.0 * math.cos(conveyor.angle) * np.cos(100.0 * math.pi * slips + 0.4) + 9.81 * math.sin(0.05)
     np.testing.assert_array_equal(np.sign(slip), np.sign(pull))
 
@@ -234,7 +234,7 @@ def test_peaks_agree_with_a_dense_sample(exponent):
     assert run.peak_force == pytest.approx(sample["contact_force"].max(), rel=1e-6)
     assert run.peak_force >= sample["contact_force"].max() * (1.0 - 1e-12)
     hits = run.events["time"][(run.events["kind"] == "impact") & (run.events["time"] > 0.15)]
-    approach = conveyor_motion(conveyor, hits)["vz"] - run.sample(hits - 1e-10)["vz"]
+    approach = plate_motion(conveyor, hits)["vz"] - run.sample(hits - 1e-10)["vz"]
     assert run.impact_speed == pytest.approx(approach.max(), rel=1e-6)
 
 

@@ -12,7 +12,7 @@ from scipy.linalg import expm
 
 from conveyor import Conveyor, Start, simulate
 from conveyor.solver import trajectory as trajectory_module
-from conveyor.solver.model import conveyor_motion, pack
+from conveyor.solver.model import pack, plate_motion
 from conveyor.solver.pieces import MAX_PIECES
 
 AT_REST = Conveyor(acceleration=0.0)
@@ -83,7 +83,7 @@ def test_hooke_contact_in_closed_form():
         if begin["kind"] != "impact":
             continue
         state, after = (run.sample(np.array([t]))["vz"][0] for t in (begin["time"], end["time"]))
-        plate = conveyor_motion(conveyor, np.array([begin["time"], end["time"]]))
+        plate = plate_motion(conveyor, np.array([begin["time"], end["time"]]))
         phase = omega * begin["time"]
         vector = np.array([0.0, state - plate["vz"][0], math.cos(phase), math.sin(phase), 1.0])
         gap, rate = (expm(generator * (end["time"] - begin["time"])) @ vector)[:2]
@@ -112,14 +112,14 @@ def test_energy_balance(acceleration):
         angle = np.linspace(0.0, math.pi, 801)
         times = np.clip(low + 0.5 * (high - low) * (1 - np.cos(angle)), low, high)
         inside = run.sample(np.clip(times, low + 1e-15, high - 1e-15))
-        plate = conveyor_motion(conveyor, times)
+        plate = plate_motion(conveyor, times)
         depth = np.maximum(plate["z"] - inside["z"], 0.0)
         touching = inside["contact_force"] != 0.0
         damper = conveyor.damping * (inside["vz"] - plate["vz"]) ** 2 * touching
         power = inside["contact_force"] * plate["vz"] - damper + inside["friction_force"] * inside["vx"]
         work += simpson(power * 0.5 * (high - low) * np.sin(angle), x=angle)
     ends = run.sample(np.array([0.0, 0.05]))
-    depth = np.maximum(conveyor_motion(conveyor, np.array([0.0, 0.05]))["z"] - ends["z"], 0.0)
+    depth = np.maximum(plate_motion(conveyor, np.array([0.0, 0.05]))["z"] - ends["z"], 0.0)
     energy = conveyor.mass * (0.5 * (ends["vx"] ** 2 + ends["vz"] ** 2) + 9.81 * ends["z"])
     energy += conveyor.stiffness * depth**2.5 / 2.5
     assert energy[1] - energy[0] == pytest.approx(work, abs=1e-7 * conveyor.mass)
@@ -147,7 +147,7 @@ def test_stick_obeys_filippov():
     for begin in stick[:-1]:
         end = slip[slip > begin][0]
         times = np.linspace(begin, end, 40)[1:-1]
-        sample, plate = run.sample(times), conveyor_motion(conveyor, times)
+        sample, plate = run.sample(times), plate_motion(conveyor, times)
         np.testing.assert_allclose(sample["vx"], plate["vx"], rtol=0, atol=1e-14)
         assert (np.abs(sample["friction_force"]) <= conveyor.friction * sample["contact_force"] + 1e-15).all()
         last = run.sample(np.array([end]))
@@ -181,11 +181,11 @@ def test_start_on_the_plate_at_relative_rest():
     """The part neither falls through nor gets stuck, whether the plate presses against it or moves away."""
     for psi0 in np.linspace(0.0, 2 * math.pi, 33):
         conveyor = Conveyor(acceleration=60.0, psi0=psi0)
-        plate = conveyor_motion(conveyor, np.array([0.0]))
+        plate = plate_motion(conveyor, np.array([0.0]))
         run = simulate(conveyor, Start("conveyor", float(plate["vz"][0])), duration=0.1)
         assert run.status == "ok"
         times = np.linspace(0.0, 0.1, 500)
-        assert (run.sample(times)["z"] - conveyor_motion(conveyor, times)["z"] > -3e-4).all()
+        assert (run.sample(times)["z"] - plate_motion(conveyor, times)["z"] > -3e-4).all()
 
 
 def test_start_inside_the_plate():
@@ -349,7 +349,7 @@ def test_a_plate_presses_against_or_leaves_a_part_at_relative_rest(psi0):
     conveyor = Conveyor(acceleration=60.0, psi0=psi0)
     run = simulate(conveyor, Start("conveyor"), duration=0.01)
     moment = np.array([1e-4])
-    sample, plate = run.sample(moment), conveyor_motion(conveyor, moment)
+    sample, plate = run.sample(moment), plate_motion(conveyor, moment)
     gap = sample["z"][0] - plate["z"][0]
     if psi0 == 0.0:
         assert sample["contact_force"][0] > 0.0

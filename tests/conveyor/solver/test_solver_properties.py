@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from random_conveyors import around_the_paper, deepest_allowed, tilted, whole_ranges
 
 from conveyor import Conveyor, Start, ensemble, simulate
-from conveyor.solver.model import FREQUENCY, RANGES, TENSION_MODES, conveyor_motion, pack, unpack
+from conveyor.parameters import RANGES, TENSION_MODES
+from conveyor.solver.model import FREQUENCY, pack, plate_motion, unpack
 
 # A failing example is printed as it is found: shrinking runs that end with `contact too stiff` would take minutes.
 NO_SHRINKING = (Phase.explicit, Phase.reuse, Phase.generate)
@@ -78,7 +79,7 @@ def check(run, tolerance):
     times = np.linspace(0.0, run.duration, 101)
     sample = run.sample(times)
     assert all(np.isfinite(values).all() for values in sample.values())
-    depth = conveyor_motion(run.conveyor, times)["z"] - sample["z"]
+    depth = plate_motion(run.conveyor, times)["z"] - sample["z"]
     allowed = deepest_allowed(pack(run.conveyor, run.start)[None], np.array([run.max_gap]))[0]
     assert depth.max() <= allowed * (1.0 + 1e-6) + 1e-12 * abs(sample["z"]).max()
     # It is a sum over steps with rounding errors.
@@ -106,7 +107,7 @@ def test_any_run_within_the_ranges_ends_with_a_motion_or_a_reason(conveyor, star
     if run.status == "ok":
         check(run, 1e-9)
     elif run.status == "not finite":
-        depth = conveyor_motion(conveyor, np.zeros(1))["z"][0] - (start.z if start.z != "conveyor" else math.inf)
+        depth = plate_motion(conveyor, np.zeros(1))["z"][0] - (start.z if start.z != "conveyor" else math.inf)
         assert depth > 1.0  # m: its spring overflows
     else:
         assert run.status in ("contact too stiff", "too many events")
@@ -213,7 +214,7 @@ def test_the_deepest_penetration_is_that_of_a_drop(acceleration):
     assert conveyor.stiffness * allowed**2.5 / 2.5 == pytest.approx(work, rel=1e-12)
     times = np.linspace(0.0, 1.5 * math.sqrt(2.0 * height / pull), 20_001)
     run = simulate(conveyor, start, duration=times[-1], tolerance=1e-12)
-    depth = conveyor_motion(conveyor, times)["z"] - run.sample(times)["z"]
+    depth = plate_motion(conveyor, times)["z"] - run.sample(times)["z"]
     assert depth.max() == pytest.approx(allowed, rel=1e-3)
     assert depth.max() <= allowed * (1.0 + 1e-9)
 

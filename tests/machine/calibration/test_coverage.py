@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from project import si_config
 
-from conveyor import contact_of_groups
+from conveyor.analysis.contact_groups import contact_of_groups
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.config.tables import settings_of
 from conveyor_pipeline.machine.calibration.calibrate import make

@@ -11,7 +11,7 @@ import yaml
 from accelerometer import Drive, check, read, table_of
 from project import ROOT
 
-from conveyor import HARMONIC
+from conveyor.parameters import HARMONIC
 from conveyor_pipeline import make
 from conveyor_pipeline.common.csv_table import TableError, read_text
 from conveyor_pipeline.config import ConfigError, load_config

@@ -9,7 +9,7 @@ import pytest
 import yaml
 from project import ROOT, si_config
 
-from conveyor import Columns, Conveyor, Start, classify, conveyor_motion, ensemble, parameter_table, simulate
+from conveyor import Columns, Conveyor, Start, classify, ensemble, parameter_table, plate_motion, simulate
 from conveyor_pipeline.common.labelling import label_entry
 from conveyor_pipeline.common.steepness import steepness
 from conveyor_pipeline.common.templates import format_range
@@ -32,7 +32,7 @@ def test_heights_are_above_the_plate_at_the_initial_phase():
     for row, acceleration, (height, velocity, phase) in zip(
         rows, np.repeat([30.0, 50.0], 3), np.tile(starts, (2, 1)), strict=True
     ):
-        plate = conveyor_motion(Conveyor(acceleration=acceleration, angle=0.3, psi0=phase), np.zeros(1))["z"][0]
+        plate = plate_motion(Conveyor(acceleration=acceleration, angle=0.3, psi0=phase), np.zeros(1))["z"][0]
         assert row["z0"] - plate == pytest.approx(height, abs=1e-15)
         assert (row["vz0"], row["psi0"]) == (velocity, phase)
 

@@ -7,16 +7,7 @@ import pandas as pd
 import pytest
 from project import si_config
 
-from conveyor import (
-    Columns,
-    Conveyor,
-    Start,
-    conveyor_and_start,
-    conveyor_motion,
-    ensemble,
-    parameter_table,
-    simulate,
-)
+from conveyor import Columns, Conveyor, Start, conveyor_and_start, ensemble, parameter_table, plate_motion, simulate
 from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.config.tables import TABLES
 from conveyor_pipeline.machine.operating import drift, parts, regimes, transit
@@ -43,7 +34,7 @@ def test_parts_are_the_same_at_all_amplitudes():
     heights = []
     for rows in (low, high):
         found = [conveyor_and_start(row) for row in rows]
-        heights.append([start.z - conveyor_motion(conveyor, np.zeros(1))["z"][0] for conveyor, start in found])
+        heights.append([start.z - plate_motion(conveyor, np.zeros(1))["z"][0] for conveyor, start in found])
     assert heights[0] == pytest.approx(heights[1], abs=1e-15)
     assert min(heights[0]) >= 0.0
 

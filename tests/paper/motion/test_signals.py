@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start, simulate
-from conveyor.solver.model import conveyor_motion
+from conveyor.solver.model import plate_motion
 from conveyor_pipeline.common import fields, tables
 from conveyor_pipeline.paper.motion import impacts, signals, spectra
 
@@ -46,7 +46,7 @@ def test_plate_columns_are_the_motion_of_the_plate_at_each_point(method):
     table = frame(signals, entry)
     for acceleration in accelerations:
         rows = table.query("acceleration == @acceleration")
-        motion = conveyor_motion(Conveyor(acceleration=acceleration), np.linspace(0.0, 0.02, 9))
+        motion = plate_motion(Conveyor(acceleration=acceleration), np.linspace(0.0, 0.02, 9))
         for name, values in motion.items():
             assert rows[f"plate_{name}"].to_numpy() == pytest.approx(values, rel=1e-14)
         assert rows.contact_force.notna().all()

@@ -5,7 +5,8 @@ import pandas as pd
 import pytest
 from project import read_config
 
-from conveyor import find_bifurcation, groups_of
+from conveyor import groups_of
+from conveyor.analysis.bifurcations.bifurcation_points import find_bifurcation
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.paper.sensitivity import changes, curves, selection
 

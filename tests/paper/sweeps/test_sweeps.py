@@ -9,7 +9,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from conveyor import Conveyor, Start, simulate
-from conveyor.solver.model import UNITS
+from conveyor.parameters import UNITS
 from conveyor_pipeline.common import fields, grid, tables
 from conveyor_pipeline.paper.sweeps import shards
 

@@ -52,7 +52,7 @@ def classify(
 
     Parameters
     ----------
-    parameters : from `parameter_table` or, after a run, from `continued`, of any shape
+    parameters : from `parameter_table` or, after a run, from `restart`, of any shape
     cycles : excitation cycles after which the search for a period ends, up to 1e6
     attractors : known attractors of the conveyors, see search.find_attractors; by default none
     exponents : whether Lyapunov exponents label trajectories that have not converged; otherwise they stay undecided

@@ -1,10 +1,8 @@
 """Find the attractors of conveyors by following trajectories from sampled initial conditions."""
 
-import math
-
 import numpy as np
 
-from ...arguments import MOST_CYCLES, check_count, check_flag, check_number, check_threads, check_tolerance
+from ...arguments import MOST_CYCLES, check_count, check_flag, check_threads, check_tolerance
 from ...packing import check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
@@ -16,7 +14,7 @@ from .trapping_regions import find_attracting_orbits
 # Conveyors whose trajectories are followed side by side. Each takes 0.3 MB while its chaotic sets are searched for.
 TOGETHER = 128
 # Chaotic sets of a conveyor, and then its orbits, are searched for in at most as many cycles as this number of
-# searches for a period takes, unless a number of cycles is given.
+# searches for a period takes.
 SEARCHES = 32
 
 
@@ -25,7 +23,6 @@ def find_attractors(
     *,
     cycles: int,
     orbits: bool = True,
-    most: int | None = None,
     tolerance: float = DEFAULT_TOLERANCE,
     threads: int = 1,
     progress: str | None = None,
@@ -33,15 +30,13 @@ def find_attractors(
     """The attractors that trajectories from sampled initial conditions lead to, on each conveyor of a table.
 
     `classify` is faster with them. They are numerical results: an attractor with a small basin may be missing, and so
-    may one that is not reached within `most` cycles.
+    may one that is not reached within SEARCHES times `cycles`.
 
     Parameters
     ----------
     parameters : from `parameter_table`, of any shape; their initial conditions do not matter
     cycles : excitation cycles after which the search for a period ends, as in `classify`
     orbits : whether periodic orbits are wanted; the trapping region of one takes some thousand cycles
-    most : excitation cycles that end the search for the chaotic sets of a conveyor, and the search for its orbits; at
-        most, and by default, SEARCHES times `cycles`
     tolerance, threads, progress : as in `classify`
 
     Returns
@@ -59,18 +54,17 @@ def find_attractors(
     """
     conveyors, _ = distinct_rows(check_rows(parameters)[0])
     cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
-    most = SEARCHES * cycles if most is None else min(SEARCHES * cycles, check_number("most", most, 0.0, math.inf))
     tolerance, threads, orbits = check_tolerance(tolerance), check_threads(threads), check_flag("orbits", orbits)
     attractors = [NO_ATTRACTORS] * len(conveyors)
 
     def work(begin, end):
         some = conveyors[begin:end]
         sampled = sampling.sample_conveyors(some, min(sampling.SHORT_SEARCH, cycles), tolerance)
-        chaotic = find_chaotic_sets(some, sampled, cycles, tolerance, most=most)
+        chaotic = find_chaotic_sets(some, sampled, cycles, tolerance, most=SEARCHES * cycles)
         for k, (row, of_row, sets) in enumerate(zip(some, sampled, chaotic, strict=True), start=begin):
             known = NO_ATTRACTORS.orbits
             if orbits:
-                known = find_attracting_orbits(row, of_row, sets, cycles, tolerance, most=most)
+                known = find_attracting_orbits(row, of_row, sets, cycles, tolerance, most=SEARCHES * cycles)
             attractors[k] = AttractorTable(known, sets)
 
     for_each_chunk(work, len(conveyors), threads=threads, chunk=TOGETHER, progress=progress)

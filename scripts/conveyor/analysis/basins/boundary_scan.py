@@ -4,7 +4,6 @@ A scan of z0 shows the changes between neighbours, and bisection encloses each c
 along z0 the basins of the states are stripes, which are narrow where a state has just appeared.
 """
 
-import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -132,20 +131,6 @@ def _bisect(states_at, low, high, below, above, resolution):
         low[wide[lower]] = middle[lower]
         high[wide[~lower]], above[wide[~lower]] = middle[~lower], state[~lower]
     return low, above
-
-
-def count_decisions(heights: np.ndarray, resolution: float) -> int:
-    """The largest number of initial conditions of one conveyor whose state `find_crossings` decides.
-
-    heights, resolution : as in `find_crossings`
-
-    Examples
-    --------
-    >>> count_decisions(np.linspace(0.0, 5e-4, 26), 1e-9)
-    266
-    """
-    halvings = math.ceil(math.log2(max(np.diff(heights).max() / resolution, 1.0)))
-    return len(heights) + MOST * halvings
 
 
 def select_critical(point: np.ndarray, below: np.ndarray) -> np.ndarray:

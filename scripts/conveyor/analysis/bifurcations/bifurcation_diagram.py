@@ -8,7 +8,7 @@ from ...solver.status import NOT_FINITE, OK, STATUS
 from .. import stroboscopic_map
 
 
-def follow_attractor(
+def bifurcation_diagram(
     parameters: np.ndarray, *, transient: int, strobes: int, tolerance: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Stroboscopic states on the attractors of conveyors that change step by step.
@@ -28,7 +28,7 @@ def follow_attractor(
     Examples
     --------
     >>> parameters = parameter_table(Conveyor(), acceleration=[50.0, 57.0], z0=3e-4)
-    >>> states, status = follow_attractor(parameters, transient=500, strobes=2, tolerance=1e-10)
+    >>> states, status = bifurcation_diagram(parameters, transient=500, strobes=2, tolerance=1e-10)
     >>> (1e6 * states[:, :, 0]).round(1).tolist()  # µm: the period has doubled
     [[-600.9, -600.9], [-783.4, -476.1]]
     """

@@ -26,8 +26,9 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
     --------
     >>> conveyor = Conveyor(acceleration=47.2, stiffness=5e7)
     >>> row, orbit = parameter_table(conveyor), periodic_orbit(conveyor, Start(z=3e-4))
-    >>> branches = explore_bifurcations(row, [orbit], (46.9, 57.0), max_period=2, most=1000)
-    >>> cascade = doubling_cascade(row, *(branch.bifurcations[0] for branch in branches))
+    >>> (first,) = continue_orbit(conveyor, orbit, low=46.9, high=47.5).bifurcations
+    >>> (second,) = continue_orbit(conveyor, find_doubled_orbit(row, first), low=46.9, high=57.0).bifurcations
+    >>> cascade = doubling_cascade(row, first, second)
     >>> [(doubling.orbit.period, round(doubling.orbit.acceleration, 3)) for doubling in cascade]  # m/s²
     [(1, 47.392), (2, 56.401), (4, 58.354)]
     """

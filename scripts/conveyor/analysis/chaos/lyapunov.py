@@ -256,7 +256,7 @@ def lyapunov_spectrum_on_attractors(
     --------
     >>> parameters = parameter_table(Conveyor(), acceleration=[40.0, 80.0], z0=3e-4)
     >>> settled = sweep(parameters, duration=20.0)
-    >>> parameters = continued(parameters, settled.z_end, settled.vz_end, 20.0)
+    >>> parameters = restart(parameters, settled.z_end, settled.vz_end, 20.0)
     >>> spectrum = lyapunov_spectrum_on_attractors(parameters, cycles=100, blocks=20)
     >>> (spectrum.stderr == 0.0).tolist()  # a periodic orbit, and chaos
     [True, False]

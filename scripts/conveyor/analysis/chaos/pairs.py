@@ -1,6 +1,4 @@
-"""The largest Lyapunov exponent from pairs of trajectories: as in the paper, and with renormalisation."""
-
-import math
+"""The largest Lyapunov exponent from pairs of trajectories, as in the paper."""
 
 import numpy as np
 
@@ -8,55 +6,8 @@ from ...methods import fixed_step
 from ...packing import as_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_STEP, DEFAULT_TOLERANCE
-from ...solver import contact, trajectory
+from ...solver import trajectory
 from ...solver.record import SAMPLES
-from .. import stroboscopic_map
-
-
-def renormalised_exponent(
-    parameters: np.ndarray,
-    state: np.ndarray,
-    *,
-    distance: float = 1e-9,
-    transient: int = 200,
-    cycles: int = 2000,
-    tolerance: float = 1e-12,
-) -> float:
-    """Largest exponent (1/s) of one trajectory, from a neighbour that is set back to a distance after each cycle.
-
-    The method is that of Benettin et al. (1976). It is independent of `lyapunov_spectrum`, because it uses no
-    variational equation.
-
-    Parameters
-    ----------
-    parameters : a row of a table
-    state : stroboscopic state at ψ0, δ (m) and v (m/s), shape (2,)
-    distance : of the neighbour, relative to the scales of the part at rest
-    transient, cycles : excitation cycles that are discarded, and counted
-    tolerance : of the contact steps
-
-    Examples
-    --------
-    >>> parameters = parameter_table(Conveyor(acceleration=80.0), z0=3e-4)
-    >>> state = initial_states(parameters[None], 1e-12)[0]
-    >>> 30.0 < renormalised_exponent(parameters, state) < 45.0  # 1/s: chaos
-    True
-    """
-    parameters = as_rows(parameters)
-    c = contact.constants(parameters, tolerance)
-    scale = np.array([c.scale_w**2, c.scale_v])
-    here = np.array(state, dtype=np.float64)
-    there = here + distance * scale / math.sqrt(2.0)
-    total = 0.0
-    for n in range(transient + cycles):
-        stroboscopic_map.follow_map(parameters, tolerance, here, 1)
-        stroboscopic_map.follow_map(parameters, tolerance, there, 1)
-        separation = (there - here) / scale
-        stretch = float(np.hypot(*separation)) / distance
-        there = here + separation / stretch * scale
-        if n >= transient:
-            total += math.log(stretch)
-    return total / (cycles * c.period)
 
 
 def finite_difference_exponent(

@@ -6,7 +6,8 @@ import time
 import numpy as np
 from scipy.stats import qmc
 
-from conveyor import RANGES, UNITS, progress_bar
+from conveyor import RANGES, UNITS
+from conveyor.progress import progress_bar
 from conveyor_pipeline.common import csv_table, fields
 from conveyor_pipeline.machine.calibration.effort import MOST_SEARCHES, sizes_of
 from conveyor_pipeline.machine.calibration.inference import (

@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from tqdm import tqdm
 
-from conveyor import UNITS, progress_bar
+from conveyor import UNITS
 from conveyor.elementary import exp, log
+from conveyor.progress import progress_bar
 from conveyor_pipeline.machine.calibration.credible_intervals import open_ends, quantiles, summarize, with_errors
 from conveyor_pipeline.machine.calibration.effort import EFFECTIVE, MOST_SEARCHES, SEARCHES
 from conveyor_pipeline.machine.calibration.importance_sampling import Sample, monte_carlo_error, pooled, sample

@@ -12,8 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.stats import qmc
 
-from conveyor import INITIAL_CONDITION, plate_heights, plate_peaks, sample_runs, set_parameters
+from conveyor import replace_parameters, sample_runs
 from conveyor.elementary import exp, log
+from conveyor.packing import INITIAL_CONDITION, plate_heights, plate_peaks
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.machine.calibration.measurements import INITIAL, Measurement
 
@@ -111,7 +112,7 @@ def velocities(
         drawn = (points[begin:end] + shift[sets, of][:, None]) % 1.0
         height, speed, phase = np.moveaxis(low + (high - low) * drawn, -1, 0).reshape(3, -1)
         rows, times = (np.repeat(own[of], count, axis=0) for own in conditions)
-        set_parameters(rows, {name: np.repeat(column[sets], count) for name, column in values.items()})
+        rows = replace_parameters(rows, **{name: np.repeat(column[sets], count) for name, column in values.items()})
         rows["static_friction"] = np.maximum(rows["friction"], settings["static_friction"])
         rows["psi0"] = np.where(np.isnan(rows["psi0"]), phase, rows["psi0"])
         rows["vz0"] = np.where(np.isnan(rows["vz0"]), speed, rows["vz0"])

@@ -9,7 +9,8 @@ All functions take `settings` with the `ranges` of the searched parameters, in t
 
 import numpy as np
 
-from conveyor import contact_of_groups, groups_of_contact, set_parameters
+from conveyor import replace_parameters
+from conveyor.analysis.contact_groups import contact_of_groups, groups_of_contact
 from conveyor.elementary import exp, log
 from conveyor_pipeline.common import grid
 
@@ -28,7 +29,7 @@ def values_at(coordinates: np.ndarray, settings: dict) -> dict[str, np.ndarray]:
         for name, column in zip(settings["ranges"], coordinates.T, strict=True)
     }
     rows = np.full(len(coordinates), grid.row_of(settings["model"]))
-    set_parameters(rows, {name: values[name] for name in ("exponent", "inclination") if name in values})
+    rows = replace_parameters(rows, **{name: values[name] for name in ("exponent", "inclination") if name in values})
     group, loss = groups_of_contact(rows["stiffness"], rows["damping"], rows)
     contact = contact_of_groups(values.get("stiffness", group), values.get("damping", loss), rows)
     return values | {name: one for name, one in zip(("stiffness", "damping"), contact, strict=True) if name in values}

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from conveyor import NO_FLUCTUATIONS
+from conveyor.analysis.chaos.random_walk import NO_FLUCTUATIONS
 from conveyor_pipeline.common.templates import format_number
 from conveyor_pipeline.machine.operating.parts import differences
 from conveyor_pipeline.machine.operating.regimes import CHAOS, SEVERAL

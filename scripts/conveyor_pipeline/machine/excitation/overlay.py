@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from conveyor import MOST_HARMONICS
+from conveyor.parameters import MOST_HARMONICS
 from conveyor_pipeline.machine.excitation.estimates import SHARES
 
 DIGITS = 6

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from conveyor import UNITS, plate_peaks
+from conveyor import UNITS
+from conveyor.packing import plate_peaks
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.steepness import is_frictionless
 from conveyor_pipeline.common.templates import render

@@ -9,7 +9,8 @@ from statistics import NormalDist
 import numpy as np
 import pandas as pd
 
-from conveyor import RANDOM_WALK_STATUS, random_walk, relative_spread, sample_runs
+from conveyor import sample_runs
+from conveyor.analysis.chaos.random_walk import RANDOM_WALK_STATUS, random_walk, relative_spread
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.machine.operating.parts import IDENTICAL, population, starts_of_box
 from conveyor_pipeline.machine.operating.regimes import CHAOS, SEVERAL

@@ -13,9 +13,11 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pandas as pd
 
-from conveyor import UNITS, Columns, parameter_table, plate_peaks, progress_bar, set_parameters
+from conveyor import UNITS, Columns, parameter_table, replace_parameters
 from conveyor.elementary import exp, log, sin
 from conveyor.linear_algebra import length
+from conveyor.packing import plate_peaks
+from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields, grid, pareto
 from conveyor_pipeline.machine.operating.parts import population
 from conveyor_pipeline.machine.operating.transit import follow, summarize_populations
@@ -91,8 +93,7 @@ def peaks_of(designs: np.ndarray, model: dict) -> Columns:
     """What `plate_peaks` returns for designs, shape (k, 4), with the harmonics of the model."""
     conveyor, _ = grid.conveyor_and_start(model)
     table = np.full(len(designs), parameter_table(conveyor))
-    set_parameters(table, dict(zip(SEARCHED, designs.T, strict=True)))
-    return plate_peaks(table)
+    return plate_peaks(replace_parameters(table, **dict(zip(SEARCHED, designs.T, strict=True))))
 
 
 def model_of(design: np.ndarray, model: dict) -> dict:

@@ -9,8 +9,8 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor import plate_heights
 from conveyor.elementary import exp, log
+from conveyor.packing import plate_heights
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.rule_log import JobError
 

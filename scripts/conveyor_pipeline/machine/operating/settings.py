@@ -7,7 +7,8 @@ from typing import NotRequired
 
 from typing_extensions import TypedDict
 
-from conveyor import DESCRIPTIONS, UNITS
+from conveyor import UNITS
+from conveyor.parameters import DESCRIPTIONS
 from conveyor_pipeline.common.settings import (
     MODEL_TYPES,
     THROW,

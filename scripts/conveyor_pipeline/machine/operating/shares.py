@@ -9,8 +9,10 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor import LAST, Columns, continued, plate_peaks, sample_runs, sweep, throw_number
+from conveyor import Columns, restart, sample_runs, sweep, throw_number
 from conveyor.elementary import cos, sin
+from conveyor.packing import plate_peaks
+from conveyor.parameters import LAST
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import label_starts
 from conveyor_pipeline.common.steepness import steepness
@@ -76,7 +78,7 @@ def continue_normal(rows: np.ndarray, cycles: np.ndarray, settings: dict, *, thr
     """
     durations = cycles / rows["frequency"]
     ends = sweep(rows, duration=durations, tolerance=settings["tolerance"], needs="vertical", threads=threads)
-    return continued(rows, ends["z_end"], ends["vz_end"], durations)
+    return restart(rows, ends["z_end"], ends["vz_end"], durations)
 
 
 def last_quarters(

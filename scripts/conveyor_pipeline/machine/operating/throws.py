@@ -8,7 +8,8 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from conveyor import normal_gravity, throw_number, throw_velocity
+from conveyor import throw_number, throw_velocity
+from conveyor.parameters import normal_gravity
 from conveyor_pipeline.common import fields
 from conveyor_pipeline.machine.operating import shares
 

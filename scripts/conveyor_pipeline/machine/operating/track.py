@@ -8,7 +8,8 @@ Where the track is too steep for friction, a part slides downhill faster and fas
 
 import numpy as np
 
-from conveyor import plate_peaks, sweep
+from conveyor import sweep
+from conveyor.packing import plate_peaks
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import label_starts
 from conveyor_pipeline.common.steepness import fill_in, steepness

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from conveyor import PARAMETERS, RANGES, TANGENTIAL
+from conveyor import PARAMETERS, RANGES
+from conveyor.parameters import TANGENTIAL
 from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.figures import style
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from conveyor import Hyperbola, critical_height
+from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from conveyor_pipeline.paper.claims.about_states import flat_part
 
 

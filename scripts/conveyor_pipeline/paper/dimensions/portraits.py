@@ -2,14 +2,9 @@
 
 import numpy as np
 
-from conveyor import (
-    Dimension,
-    box_dimension,
-    box_dimension_of_paper,
-    correlation_dimension,
-    for_each_chunk,
-    sample_runs,
-)
+from conveyor import Dimension, box_dimension, correlation_dimension, sample_runs
+from conveyor.analysis.fractals.box_counting import box_dimension_of_paper
+from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
 
 TABLES = {

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from conveyor import plate_peaks
+from conveyor.packing import plate_peaks
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.figures import style
 

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from conveyor import Hyperbola, critical_height
+from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from conveyor_pipeline.figures import style
 
 

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from conveyor import conveyor_motion
+from conveyor import plate_motion
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.figures import style
 
@@ -31,7 +31,7 @@ def plot(*, map: pd.DataFrame) -> Figure:
     figure, axes = draw_phase_map(map.assign(z0=1e3 * map.z0), "z0", "initial height $z_0$ in mm", "$\\dot{z}_0$ = 0")
     conveyor, _ = grid.conveyor_and_start(map.attrs["model"])
     phases = np.linspace(map.psi0.min(), map.psi0.max(), 200)
-    plate = conveyor_motion(conveyor, phases / (2.0 * np.pi * conveyor.frequency))["z"]
+    plate = plate_motion(conveyor, phases / (2.0 * np.pi * conveyor.frequency))["z"]
     axes.plot(1e3 * plate[plate >= 0.0], phases[plate >= 0.0], color="white", linewidth=1.0)
     top = plate.argmax()
     style.note(axes, "plate", (1e3 * plate[top], phases[top]), (3, 0), color="white", va="center")

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from conveyor import normal_gravity
+from conveyor.parameters import normal_gravity
 from conveyor_pipeline.figures import style
 
 MARKERS = "os^v"

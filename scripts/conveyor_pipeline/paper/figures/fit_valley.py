@@ -6,7 +6,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from conveyor import Hyperbola, critical_height
+from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from conveyor_pipeline.figures import style
 from conveyor_pipeline.paper.claims.about_states import flat_part
 

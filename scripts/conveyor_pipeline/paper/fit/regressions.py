@@ -3,7 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from conveyor import Hyperbola, fit_hyperbola, fit_hyperbola_by_pymoo, hyperbola_profile, mean_squared_error
+from conveyor.analysis.basins.hyperbola import Hyperbola, mean_squared_error
+from conveyor.analysis.basins.hyperbola_fit import fit_hyperbola, fit_hyperbola_by_pymoo, hyperbola_profile
 from conveyor_pipeline.common import fields
 
 TABLES = {

@@ -4,7 +4,9 @@ from functools import partial
 
 import numpy as np
 
-from conveyor import AttractorTable, classify, continued, find_crossings, select_critical, sweep
+from conveyor import classify, restart, sweep
+from conveyor.analysis.attractors.attractor_table import AttractorTable
+from conveyor.analysis.basins.boundary_scan import find_crossings, select_critical
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import search_options, shared_attractors
 
@@ -30,7 +32,7 @@ def find_states(parameters: np.ndarray, settings: dict, known: AttractorTable, t
     if settings["method"] != "event":
         run = {name: settings[name] for name in ("duration", "method", "step")}
         runs = sweep(parameters, needs="vertical", chunk=8, threads=threads, **run)
-        parameters = continued(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
+        parameters = restart(parameters, runs["z_end"], runs["vz_end"], settings["duration"])
     return classify(parameters, attractors=known, **search_options(settings), threads=threads).state
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from conveyor import first_impacts, on_conveyor
+from conveyor.analysis.basins.first_impact import first_impacts, on_conveyor
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import label_entry
 

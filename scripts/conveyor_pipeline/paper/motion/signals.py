@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from conveyor import Run, conveyor_motion
+from conveyor import Run, plate_motion
 from conveyor_pipeline.common import fields
 from conveyor_pipeline.paper.motion.runs import simulate_entry
 
@@ -26,7 +26,7 @@ TABLES = {
 
 def sample(run: Run, times: np.ndarray) -> dict[str, np.ndarray]:
     """The motion of one part and of its plate at `times` (s)."""
-    plate = {f"plate_{name}": values for name, values in conveyor_motion(run.conveyor, times).items()}
+    plate = {f"plate_{name}": values for name, values in plate_motion(run.conveyor, times).items()}
     return {"time": times, **run.sample(times), **plate}
 
 

@@ -3,19 +3,17 @@
 import numpy as np
 
 from conveyor import (
-    LONG_FLIGHT,
     Bifurcation,
     Branch,
     Orbit,
-    ReturnMap,
     accumulation_point,
     doubling_cascade,
     doubling_ratios,
-    explore_bifurcations,
     find_doubled_orbit,
-    follow_branch,
-    on_branch,
 )
+from conveyor.analysis.attractors.labels import LONG_FLIGHT
+from conveyor.analysis.bifurcations.continuation import explore_bifurcations, follow_branch, on_branch
+from conveyor.analysis.bifurcations.periodic_orbits import ReturnMap
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.paper.orbits.seeds import seeds

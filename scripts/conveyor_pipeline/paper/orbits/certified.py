@@ -13,16 +13,9 @@ import pandas as pd
 from flint import arb
 from pyarrow import Field
 
-from conveyor import (
-    SAME_ORBIT,
-    Bifurcation,
-    Orbit,
-    ReturnMap,
-    find_doubled_orbit,
-    find_orbit,
-    follow_branch,
-    progress_bar,
-)
+from conveyor import Bifurcation, Orbit, find_doubled_orbit
+from conveyor.analysis.bifurcations.continuation import SAME_ORBIT, follow_branch
+from conveyor.analysis.bifurcations.periodic_orbits import ReturnMap, find_orbit
 from conveyor.certificates import (
     Accuracy,
     Horseshoe,
@@ -42,6 +35,7 @@ from conveyor.certificates import (
     prove_horseshoe,
     prove_orbit,
 )
+from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields, grid
 
 

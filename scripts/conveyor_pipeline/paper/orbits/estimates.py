@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from conveyor import finite_difference_exponent
+from conveyor.analysis.chaos.pairs import finite_difference_exponent
 from conveyor_pipeline.common import fields, grid
 
 TABLES = {

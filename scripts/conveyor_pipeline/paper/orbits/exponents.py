@@ -3,7 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from conveyor import lyapunov_spectrum_on_attractors, start_at
+from conveyor import start_at
+from conveyor.analysis.chaos.lyapunov import lyapunov_spectrum_on_attractors
 from conveyor_pipeline.common import fields, grid
 
 # Excitation cycles in a block, and blocks, from whose means the standard error is computed.

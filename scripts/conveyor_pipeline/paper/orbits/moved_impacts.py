@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from conveyor import Run, conveyor_and_start, progress_bar, simulate
+from conveyor import Run, conveyor_and_start, simulate
+from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields, grid
 
 TABLES = {

@@ -4,14 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from conveyor import (
-    ORBIT_TOLERANCE,
-    Orbit,
-    initial_states,
-    replace_parameters,
-    sampled_initial_conditions,
-    settled_orbit,
-)
+from conveyor import Orbit, initial_states, replace_parameters
+from conveyor.analysis.attractors.sampling import sampled_initial_conditions
+from conveyor.analysis.bifurcations.periodic_orbits import ORBIT_TOLERANCE, settled_orbit
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.rule_log import JobError
 

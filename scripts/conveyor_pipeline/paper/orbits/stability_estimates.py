@@ -10,19 +10,19 @@ import numpy as np
 
 from conveyor import (
     DEFAULT_TOLERANCE,
-    REFERENCE_DIMENSIONS,
     Dimension,
     box_dimension,
-    box_dimension_of_paper,
     conveyor_and_start,
     correlation_dimension,
-    finite_difference_exponent,
     initial_states,
     lyapunov_spectrum,
-    progress_bar,
-    settled_orbit,
     simulate,
 )
+from conveyor.analysis.bifurcations.periodic_orbits import settled_orbit
+from conveyor.analysis.chaos.pairs import finite_difference_exponent
+from conveyor.analysis.fractals.box_counting import box_dimension_of_paper
+from conveyor.analysis.fractals.reference_sets import REFERENCE_DIMENSIONS
+from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields, grid
 
 TABLES = {

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from conveyor import classify, follow_attractor, for_each_chunk, start_at
+from conveyor import bifurcation_diagram, classify, start_at
+from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import search_options
 
@@ -30,7 +31,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
 
     def work(begin, end):
         for k in range(begin, end):
-            orbit_states = follow_attractor(
+            orbit_states = bifurcation_diagram(
                 upwards[orders[k]], transient=settings["transient"], strobes=count, tolerance=tolerance
             )
             swept[k] = [column[orders[k]] for column in orbit_states]

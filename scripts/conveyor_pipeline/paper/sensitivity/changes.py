@@ -9,16 +9,15 @@ import pandas as pd
 
 from conveyor import (
     UNITS,
-    BifurcationPoint,
     accumulation_point,
     amplitude_of,
     classify,
-    find_bifurcation,
     groups_of,
     length_and_speed_units,
-    locate_change,
     replace_parameters,
 )
+from conveyor.analysis.basins.boundary_scan import locate_change
+from conveyor.analysis.bifurcations.bifurcation_points import BifurcationPoint, find_bifurcation
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.paper.sensitivity.selection import COLUMNS, select_bifurcations
 

@@ -3,18 +3,16 @@
 import numpy as np
 import pandas as pd
 
-from conveyor import (
-    GRAZING,
-    UNITS,
+from conveyor import UNITS, amplitude_of
+from conveyor.analysis.bifurcations.bifurcation_curves import (
     BifurcationCurve,
-    BifurcationPoint,
     CurveEnd,
     ParameterPath,
-    amplitude_of,
     follow_bifurcation_curve,
     follow_grazing_curve,
-    for_each_chunk,
 )
+from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, BifurcationPoint
+from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.paper.sensitivity.selection import COLUMNS, Selected, select_bifurcations
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from conveyor import classify, continued, sweep
+from conveyor import classify, restart, sweep
 from conveyor_pipeline.common import fields, grid
 
 TABLES = {
@@ -32,6 +32,6 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     axes, parameters = grid.product(AXES, model)
     options = {"tolerance": TOLERANCE, "threads": threads, "progress": progress}
     runs = sweep(parameters, duration=DURATION, **options)
-    ends = continued(parameters, runs["z_end"], runs["vz_end"], DURATION)
+    ends = restart(parameters, runs["z_end"], runs["vz_end"], DURATION)
     labels = classify(ends, cycles=CYCLES, **options)
     return {**axes, "mean_velocity": runs["mean_velocity"], "state": labels.state, "period": labels.period}

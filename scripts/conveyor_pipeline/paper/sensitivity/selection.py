@@ -5,13 +5,12 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor import (
+from conveyor import groups_of, replace_parameters
+from conveyor.analysis.bifurcations.bifurcation_points import (
     GRAZING,
     BifurcationPoint,
     at_phase_zero,
     find_bifurcation,
-    groups_of,
-    replace_parameters,
     touching_point,
 )
 from conveyor_pipeline.common import fields

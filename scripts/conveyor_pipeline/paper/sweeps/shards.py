@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from conveyor import continued, sweep
+from conveyor import restart, sweep
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import label_entry
 
@@ -44,7 +44,7 @@ def columns(
     ok = runs["status"] == "ok"
     selected = slice(None) if ok.all() else ok  # a slice makes no copy
     ends = runs["z_end"][selected], runs["vz_end"][selected]
-    parameters = continued(parameters[selected], *ends, settings["duration"])
+    parameters = restart(parameters[selected], *ends, settings["duration"])
     labels = label_entry(parameters, settings, threads=threads, progress=progress)
     state, period, flight = (
         fill_missing(ok, values, missing)

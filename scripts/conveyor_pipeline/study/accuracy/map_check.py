@@ -17,16 +17,11 @@ import numpy as np
 import pandas as pd
 from scipy.ndimage import generate_binary_structure, maximum_filter, minimum_filter
 
-from conveyor import (
-    LONG_FLIGHT,
-    MAX_PERIOD,
-    conveyor_and_start,
-    for_each_chunk,
-    lyapunov_spectrum,
-    sample_runs,
-    simulate,
-)
+from conveyor import conveyor_and_start, lyapunov_spectrum, sample_runs, simulate
+from conveyor.analysis.attractors.labels import LONG_FLIGHT
+from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from conveyor.methods import modes
+from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
 
 TABLES = {

@@ -13,8 +13,9 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor import ORDER, Conveyor, Run, Start, classify, continued, conveyor_motion, parameter_table, simulate
+from conveyor import Conveyor, Run, Start, classify, parameter_table, plate_motion, restart, simulate
 from conveyor.methods import fixed_step, modes, scipy_integrators
+from conveyor.solver.polynomial import ORDER
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.study.accuracy.scenes import TRUTH
 from conveyor_pipeline.study.accuracy.timing import run_in_turns
@@ -177,7 +178,7 @@ def trajectory_errors(
 def find_states(settings: dict, ends: np.ndarray) -> np.ndarray:
     """The states of motion that runs lead to, from their `ends`, shape (n, 3)."""
     parameters = np.full(len(ends), grid.row_of(settings["model"]))
-    return classify(continued(parameters, ends[:, 1], ends[:, 2], settings["duration"])).state
+    return classify(restart(parameters, ends[:, 1], ends[:, 2], settings["duration"])).state
 
 
 def judge_runs(results: list[Result], errors: np.ndarray, truth: Result, settings: dict) -> list[str]:
@@ -186,7 +187,7 @@ def judge_runs(results: list[Result], errors: np.ndarray, truth: Result, setting
     errors : relative errors of the mean velocities, shape (n,)
     """
     conveyor, _ = grid.conveyor_and_start(settings["model"])
-    plate = conveyor_motion(conveyor, np.array([settings["duration"], 0.5 / conveyor.frequency]))["z"]
+    plate = plate_motion(conveyor, np.array([settings["duration"], 0.5 / conveyor.frequency]))["z"]
     lowest = plate[0] - np.abs(plate).max()
     outcomes = [THROUGH if one.status == "ok" and one.end[1] < lowest else one.status for one in results]
     ended = [place for place, outcome in enumerate(outcomes) if outcome == "ok"]

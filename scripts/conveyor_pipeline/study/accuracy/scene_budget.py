@@ -11,7 +11,8 @@ from functools import cache, partial
 import numpy as np
 import pandas as pd
 
-from conveyor import conveyor_and_start, for_each_chunk, simulate
+from conveyor import conveyor_and_start, simulate
+from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.study.accuracy import observables
 from conveyor_pipeline.study.accuracy.observables import SHOWN

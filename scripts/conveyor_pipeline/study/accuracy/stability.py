@@ -8,18 +8,10 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import beta
 
-from conveyor import (
-    DEFAULT_TOLERANCE,
-    FIXED_STEP_METHODS,
-    Columns,
-    Conveyor,
-    Start,
-    parameter_table,
-    progress_bar,
-    simulate,
-    sweep,
-)
+from conveyor import DEFAULT_TOLERANCE, Columns, Conveyor, Start, parameter_table, simulate, sweep
 from conveyor.methods import fixed_step
+from conveyor.parameters import FIXED_STEP_METHODS
+from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields
 from conveyor_pipeline.study.accuracy.closed_forms import compression, undamped_duration
 

@@ -12,17 +12,9 @@ import numpy as np
 import pandas as pd
 from scipy.optimize import minimize_scalar
 
-from conveyor import (
-    Conveyor,
-    Start,
-    continue_orbit,
-    conveyor_motion,
-    normal_gravity,
-    parameter_table,
-    periodic_orbit,
-    simulate,
-)
+from conveyor import Conveyor, Start, continue_orbit, parameter_table, periodic_orbit, plate_motion, simulate
 from conveyor.methods import event_driven
+from conveyor.parameters import normal_gravity
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.study.accuracy import closed_forms
@@ -118,7 +110,7 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
     # On the rigid orbit, the part leaves with the velocity g T/2, and the plate has the velocity g T (1 - e)/(1 + e)/2.
     phase = math.pi - math.asin(low / middle)
     conveyor = linear_contact(model, stiffness, restitution, acceleration=middle * gravity / vertical, psi0=phase)
-    plate = conveyor_motion(conveyor, np.zeros(1))["z"][0]
+    plate = plate_motion(conveyor, np.zeros(1))["z"][0]
     start = Start(z=plate, vz=0.5 * gravity / model["frequency"])
     orbit = periodic_orbit(conveyor, start, transient=CYCLES)
     if orbit is None or orbit.impacts != 1:

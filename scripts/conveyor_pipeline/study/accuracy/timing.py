@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from time import thread_time
 from typing import Any
 
-from conveyor import progress_bar
+from conveyor.progress import progress_bar
 
 # Shortest turn: a fast run is repeated within it, so that the first repetition with a cold cache does not matter.
 TURN = 0.01  # s

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
-from conveyor import FIXED_STEP_METHODS
+from conveyor.parameters import FIXED_STEP_METHODS
 from conveyor_pipeline.figures import style
 from conveyor_pipeline.study.accuracy import speed
 

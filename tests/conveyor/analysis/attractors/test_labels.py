@@ -34,14 +34,14 @@ def test_known_states(threads):
 def test_state_does_not_depend_on_when_the_run_is_cut():
     for duration in (0.013, 0.2, 1.0):
         runs = ensemble.sweep(points(), duration=duration)
-        later = ensemble.continued(points(), runs["z_end"], runs["vz_end"], duration)
+        later = ensemble.restart(points(), runs["z_end"], runs["vz_end"], duration)
         assert list(labels.classify(later).state) == [state for state, _ in KNOWN.values()]
 
 
 def test_a_run_continues_in_a_copy():
     true = points()
     runs = ensemble.sweep(true, duration=0.013)
-    later = ensemble.continued(true, runs["z_end"], runs["vz_end"], 0.013)
+    later = ensemble.restart(true, runs["z_end"], runs["vz_end"], 0.013)
     assert (true == points()).all()
     assert (later != true).all()
 
@@ -75,7 +75,7 @@ def test_sweep_keeps_to_its_attractor():
     ):
         model = {"z0": z0}
         _, parameters = grid.product({"acceleration": list(amplitudes)}, model)
-        strobes, status = bifurcation_diagram.follow_attractor(parameters, transient=300, strobes=4, tolerance=1e-10)
+        strobes, status = bifurcation_diagram.bifurcation_diagram(parameters, transient=300, strobes=4, tolerance=1e-10)
         assert (status == "ok").all()
         assert np.ptp(strobes, axis=1) == pytest.approx(0.0, abs=1e-7)
         starts = start_at(parameters, strobes[:, -1], 1e-10)

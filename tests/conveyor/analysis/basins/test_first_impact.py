@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start, conveyor_and_start, conveyor_motion, parameter_table, simulate
+from conveyor import Conveyor, Start, conveyor_and_start, parameter_table, plate_motion, simulate
 from conveyor.analysis.basins.first_impact import first_impacts, on_conveyor
 
 G = 9.81
@@ -29,7 +29,7 @@ def test_a_part_meets_a_moving_plate_at_its_height():
     for psi0 in (0.0, 2.0, 5.0):
         conveyor = Conveyor(acceleration=60.0, psi0=psi0)
         t1, v1, _ = first_impacts(starts(conveyor, *((z + 1.3e-4, 0.05) for z in z0)))
-        assert conveyor_motion(conveyor, t1)["z"] == pytest.approx(z0 + 1.3e-4 + 0.05 * t1 - G * t1**2 / 2, abs=1e-16)
+        assert plate_motion(conveyor, t1)["z"] == pytest.approx(z0 + 1.3e-4 + 0.05 * t1 - G * t1**2 / 2, abs=1e-16)
         assert v1 == pytest.approx(0.05 - G * t1, rel=1e-14)
 
 

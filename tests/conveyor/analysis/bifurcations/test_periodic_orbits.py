@@ -230,4 +230,4 @@ def test_the_product_of_multipliers_is_not_rounding_where_damping_is_strong(conv
 def test_counts_of_cycles_that_cannot_be_followed_are_named(name, count):
     rows = pack(Conveyor(acceleration=80.0), Start(3e-4))[None]
     with pytest.raises(ValueError, match=f"^{name}"):
-        bifurcation_diagram.follow_attractor(rows, **{"transient": 1, "strobes": 4, "tolerance": 1e-10, name: count})
+        bifurcation_diagram.bifurcation_diagram(rows, **{"transient": 1, "strobes": 4, "tolerance": 1e-10, name: count})
