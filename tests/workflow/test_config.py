@@ -27,7 +27,22 @@ WRONG = [
     ({"model": {"mass": -0.1}}, "model.mass = -0.1 should be at least 1e-12 (kg)"),
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),
-    ({"model": {"stiffness": "5e5 N"}}, "model.stiffness = '5e5 N' should be a valid number (N/m^p)"),
+    ({"model": {"stiffness": "5e5 N"}}, "model.stiffness = '5e5 N' has a unit of another dimension; give N/m^1.5"),
+    ({"model": {"stiffness": "500 N/mm"}}, "'500 N/mm' is not in the unit of the contact law; give it in N/m^1.5"),
+    ({"model": {"mass": "0.3 mm"}}, "model.mass = '0.3 mm' has a unit of another dimension; give kg, g or mg"),
+    ({"model": {"angle": "20 grd"}}, "model.angle = '20 grd' has an unknown unit; give rad or deg"),
+    ({"model": {"angle": "120 deg"}}, "model.angle = '120 deg' should be at most 1.5708 (rad)"),
+    ({"model": {"mass": "0,8 g"}}, "write decimal points, not commas"),
+    ({"model": {"mass": "heavy"}}, "model.mass = 'heavy' should be a number, or one with a unit: kg, g or mg"),
+    ({"parts": {"friction": "2 mm"}}, "parts.friction = '2 mm' has a unit of another dimension; give %, or no unit"),
+    (
+        {"sweeps": {"mine": {"axes": {"stiffness": ["5e5 N/m"]}}}},
+        "sweeps.mine.axes.stiffness[0] = '5e5 N/m' is not in the unit of the contact law; give it in N/m^1.5",
+    ),
+    (
+        {"sweeps": {"mine": {"axes": {"z0": {"start": 0.0, "stop": "3 kg", "num": 3}}}}},
+        "sweeps.mine.axes.z0.stop = '3 kg' has a unit of another dimension; give m, mm",
+    ),
     ({"model": {"angle": "12"}}, "12° are 0.2094 rad"),
     ({"model": {"damping": True}}, "model.damping = True should be a number (N s/m)"),
     ({"model": {"z0": False}}, "model.z0 = False should be a number (m)"),
@@ -142,7 +157,7 @@ WRONG = [
     ({"critical": {"edge": {"scan": {"num": 1}}}}, "critical.edge.scan.num = 1 should be at least 2"),
     (
         {"critical": {"edge": {"scan": [0.0, "conveyor"]}}},
-        "critical.edge.scan[1] = 'conveyor' should be a valid number",
+        "critical.edge.scan[1] = 'conveyor' should be a number",
     ),
     (
         {"signals": {"states": {"times": {"stop": 2.0}}}},

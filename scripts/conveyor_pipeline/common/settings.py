@@ -9,6 +9,7 @@ from typing_extensions import TypedDict
 
 from conveyor import PARAMETERS, RANGES, UNITS
 from conveyor.parameters import DESCRIPTIONS, FIXED_STEP_METHODS, HARMONIC, HARMONICS, MOST_HARMONICS, TENSION_MODES
+from conveyor_pipeline.common.quantities import QuantityError, in_unit, is_quantity
 
 LONGEST_NAME = 64  # characters: names become file names
 LONGEST_LIST = 10_000  # values; a longer axis is written as {start, stop, num}
@@ -17,9 +18,9 @@ NAME = rf"[A-Za-z][A-Za-z0-9_-]{{0,{LONGEST_NAME - 1}}}"
 
 
 def number(description: str, unit: str = "", **bounds: float) -> Any:
-    """A number with a unit and the bounds ge, gt, le, lt."""
+    """A number with a unit and the bounds ge, gt, le, lt; a text may have another unit, such as 20 deg for rad."""
     field = Field(description=description, json_schema_extra={"unit": unit} if unit else None, **bounds)
-    return Annotated[float, field, BeforeValidator(refuse_truth)]
+    return Annotated[float, field, BeforeValidator(partial(as_number, unit))]
 
 
 def whole(description: str, least: int, most: int, unit: str = "") -> Any:
@@ -33,6 +34,16 @@ def as_integer(value: Any) -> Any:
     if isinstance(value, str) and is_number(value):
         value = float(value)
     return int(value) if isinstance(value, float) and value.is_integer() else refuse_truth(value)
+
+
+def as_number(unit: str, value: Any) -> Any:
+    """The number of a text with a unit, in the unit of its key."""
+    if isinstance(value, str) and not is_number(value):
+        try:
+            return in_unit(value, unit)
+        except QuantityError as error:
+            raise PydanticCustomError("quantity", f"Input {error}") from error
+    return refuse_truth(value)
 
 
 def refuse_truth(value: Any) -> Any:
@@ -167,7 +178,8 @@ def axis_form(value: Any) -> str | None:
 
 
 def height_form(value: Any) -> str | None:
-    return "word" if value == "conveyor" else None if isinstance(value, str) and not is_number(value) else "number"
+    is_other_text = isinstance(value, str) and not (is_number(value) or is_quantity(value))
+    return "word" if value == "conveyor" else None if is_other_text else "number"
 
 
 def axis(

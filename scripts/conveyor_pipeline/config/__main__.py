@@ -24,11 +24,17 @@ def values_of(value: object, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple
         yield path, value
 
 
-def show(config: dict, files: list[str]) -> Iterator[str]:
-    """A line for each value: its key, the value as JSON, and the file and line that it comes from."""
+def show(config: dict, stated: dict, files: list[str]) -> Iterator[str]:
+    """A line for each value: its key, the value as JSON, the file and line that it comes from, and a text with a unit.
+
+    stated : what the overlays state, as they give it
+    """
     lines = {path: line for file in files for path, line in find_lines(file).items()}
+    texts = dict(values_of(stated))
     for path, value in values_of(config):
         origin = next(lines[path[:end]] for end in range(len(path), 0, -1) if path[:end] in lines)
+        if isinstance(texts.get(path), str) and texts[path] != value:
+            origin += f": {texts[path]}"
         yield f"{format_key(path)} = {json.dumps(value, ensure_ascii=False)}    # {origin}"
 
 
@@ -44,4 +50,6 @@ if __name__ == "__main__":
         loaded = load_config(DEFAULT_FILES, overlays, {})
     except ConfigError as error:
         sys.exit(str(error))
-    print("\n".join(show(loaded.merged, [*defaults, *overlays])) if given.show else "The config is valid.")
+    print(
+        "\n".join(show(loaded.merged, loaded.stated, [*defaults, *overlays])) if given.show else "The config is valid."
+    )

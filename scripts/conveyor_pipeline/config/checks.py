@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 from importlib import import_module
 
+from conveyor_pipeline.common.quantities import STIFFNESS, exponent_of, is_quantity
 from conveyor_pipeline.config.entries import (
     ENTRIES,
     FIGURES,
@@ -23,10 +24,11 @@ from conveyor_pipeline.config.entries import (
     values_of,
     variants,
 )
-from conveyor_pipeline.config.errors import suggest_name, type_problems
+from conveyor_pipeline.config.errors import format_key, suggest_name, type_problems
 from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
 from conveyor_pipeline.config.model import MODEL, is_same_model
 from conveyor_pipeline.config.scales import faults_of_scales, to_si
+from conveyor_pipeline.config.schema import schema_at, unit_of
 from conveyor_pipeline.config.stages import FLOORS
 from conveyor_pipeline.config.tables import NAMED, TABLES, entry_of, references, references_of
 from conveyor_pipeline.figures.titles import caption_file, package_of
@@ -111,6 +113,27 @@ def faults_of_friction(config: dict, changed: dict[str, dict]) -> Iterator[str]:
                     f"{key} has static_friction = {min(static)!r} below friction = {max(sliding)!r}; give a larger "
                     "static_friction, or leave it out to make both equal, or give a smaller friction"
                 )
+
+
+def faults_of_stiffness(config: dict, typed: dict) -> Iterator[str]:
+    """Units of stiffness, N/m^p, whose exponent p is not the exponent of the model; `typed` is the validated config."""
+    for path, text in texts_of(config):
+        if is_quantity(text) and unit_of(schema_at([*path])) == STIFFNESS:
+            entry = typed[path[0]].get(path[1], {}) if path[0] in ENTRIES else {}
+            model = typed["model"] | entry.get("model", {})
+            exponents = ends(entry.get("axes", {}).get("exponent", [model["exponent"]]))
+            if any(exponent != exponent_of(text) for exponent in exponents):
+                needed = " and ".join(f"N/m^{exponent:g}" for exponent in exponents)
+                yield f"{format_key(path)} = {text!r} is not in the unit of the contact law; give it in {needed}"
+
+
+def texts_of(value: object, path: tuple = ()) -> Iterator[tuple[tuple, str]]:
+    """The texts of a config with their paths."""
+    if isinstance(value, str):
+        yield path, value
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, item in items:
+        yield from texts_of(item, (*path, key))
 
 
 def sweeps(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
@@ -235,7 +258,7 @@ def problems(config: dict, defaults: dict | None = None, stated: dict | None = N
     if errors := type_problems(config):
         return errors
     typed, defaults = MODEL.validate_python(config), default_config() if defaults is None else defaults
-    if faults := list(faults_of_scales(typed, defaults)):
+    if faults := [*faults_of_stiffness(config, typed), *faults_of_scales(typed, defaults)]:
         return faults
     # Converted values have the limits of their SI units, and a partial axis has what the default gives.
     if errors := type_problems(typed := to_si(typed)):

@@ -9,6 +9,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from conveyor_pipeline.common.settings import is_number
 from conveyor_pipeline.config.model import MODEL
 from conveyor_pipeline.config.schema import options_of, schema_at, unit_of
 
@@ -44,11 +45,22 @@ def format_key(path: Iterable[str | int]) -> str:
     return "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in names).lstrip(".") or "config"
 
 
-def explain(error: dict) -> str:
-    """One line for an error of pydantic."""
+def given_at(config: Any, path: Iterable[str | int], validated: Any) -> Any:
+    """The value of a config at a path as the user gives it; a text with a unit is `validated` as a number."""
+    try:
+        for part in path:
+            config = config[part]
+    except (KeyError, IndexError, TypeError):
+        return validated
+    return config if isinstance(config, str) else validated
+
+
+def explain(error: dict, config: Any) -> str:
+    """One line for an error of pydantic in a config."""
     # Without the names of forms ("(span)"), and without "[key]" behind a name of the user's choice.
     path = [part for part in error["loc"] if str(part)[:1] != "(" and part != "[key]"]
-    kind, value, is_name = error["type"], error["input"], error["loc"][-1:] == ("[key]",)
+    kind, is_name = error["type"], error["loc"][-1:] == ("[key]",)
+    value = error["input"] if is_name else given_at(config, path, error["input"])
     key, above, schema = format_key(path), format_key(path[:-1]), schema_at(path)
     shown = f"{key} = {format_value(value)}"
     if kind == "invalid_key" or (is_name and not isinstance(value, str)):
@@ -81,9 +93,11 @@ def explain(error: dict) -> str:
         fault = fault.partition(",")[0]  # without "unable to parse string as a number"
     fault = fault.replace(" after validation", "").replace("dictionary", "mapping")
     remedy = ""
-    if kind == "less_than_equal" and unit == "rad" and (degrees := float(value)) <= 360:
-        remedy = f"; angles are in radians, {degrees:g}° are {math.radians(degrees):.4f} rad"
-    return f"{shown} {fault}{f' ({unit})' if unit not in ('', '1') else ''}{remedy}"
+    has_unit = isinstance(value, str) and not is_number(value)
+    if kind == "less_than_equal" and unit == "rad" and not has_unit and (degrees := float(value)) <= 360:
+        remedy = f"; angles are in radians, {degrees:g}° are {math.radians(degrees):.4f} rad: write {degrees:g} deg"
+    names_unit = unit not in ("", "1") and kind != "quantity"
+    return f"{shown} {fault}{f' ({unit})' if names_unit else ''}{remedy}"
 
 
 def type_problems(config: Any, ignored: str = "") -> list[str]:
@@ -93,5 +107,5 @@ def type_problems(config: Any, ignored: str = "") -> list[str]:
     except ValidationError as invalid:
         errors = [error for error in invalid.errors(include_url=False) if error["type"] != ignored]
         more = [f"{format_key(error['loc'])}: {error['msg']}" for error in errors[MOST_EXPLAINED:]]
-        return [explain(error) for error in errors[:MOST_EXPLAINED]] + more
+        return [explain(error, config) for error in errors[:MOST_EXPLAINED]] + more
     return []

@@ -17,6 +17,10 @@ class EditorSchema(GenerateJsonSchema):
     def field_title_should_be_set(self, schema):
         return False
 
+    def float_schema(self, schema):
+        # A number, or a text with a unit.
+        return super().float_schema(schema) | {"type": ["number", "string"], "pattern": r"^\s*[-+.\d]"}
+
     def dict_schema(self, schema):
         made = super().dict_schema(schema)
         return made | {"additionalProperties": False} if "patternProperties" in made else made

@@ -50,7 +50,7 @@ def describe_values(schema: dict) -> str:
             return ", ".join(words)
         case {"const": word}:
             return word
-        case {"type": "number"}:
+        case {"type": ["number", _]}:
             return describe_range(options[0])
         case {"type": "integer"}:
             return f"whole {describe_range(options[0])}"
