@@ -14,6 +14,7 @@ from project import ROOT, read_config
 
 from conveyor_pipeline.figures.titles import title_of
 from conveyor_pipeline.pages import article
+from conveyor_pipeline.paper.claims.statements import read_claims
 
 RESULTS = ROOT / os.environ.get("CONVEYOR_RESULTS", "results")
 SITE = RESULTS / "site"
@@ -83,7 +84,7 @@ def test_every_figure_and_claim_is_shown(links):
         assert (SITE / f"figures/{name}.pdf").is_file()
         assert f"_images/{name}.png" in figures
         assert title_of(name).replace("'", "’").split("’")[0] in figures
-    assert {claim.lower() for claim in CONFIG["claims"]} <= links["claims.html"].places
+    assert {claim.lower() for claim in read_claims()} <= links["claims.html"].places
 
 
 def test_the_article_shows_all_figures_of_the_paper():
@@ -91,7 +92,7 @@ def test_the_article_shows_all_figures_of_the_paper():
     for number in range(1, 25):
         assert f"**Fig. {number}.**" in text
         assert f"fig{number:02d}.pdf)" in text
-    for claim in CONFIG["claims"]:
+    for claim in read_claims():
         assert f"\n| {claim} |" in text
     assert "\n| everything | " in text  # the cost of the build
 

@@ -9,6 +9,7 @@ from project import ROOT, merged, read_config
 
 from conveyor import Conveyor, Start, ensemble, simulation
 from conveyor.methods import fixed_step
+from conveyor.parameters import UNITS
 from conveyor.solver import model
 from conveyor_pipeline.config import canonical, problems
 from conveyor_pipeline.config.entries import by_methods, resolve
@@ -129,19 +130,6 @@ WRONG = [
         {"figures": {"fig22": {"caption_tables": {"spectra": "lyapunov/spectrum"}}}},
         "fig22.caption_tables.spectra is",
     ),
-    (
-        {"claims": {"C01": {"tables": {"eulr": "sweeps/amplitudes"}}}},
-        "claims.C01.tables.eulr is an unknown key; did you mean euler?",
-    ),
-    ({"claims": {"C01": {"settings": {"acceleration": 40.0}}}}, "claims.C01.settings.acceleration is an unknown key"),
-    (
-        {"claims": {"C01": {"quantities": {"critical_amplitude": {"accepted": [51, 49]}}}}},
-        "[51, 49] is reversed",
-    ),
-    (
-        {"claims": {"C01": {"quantities": {"critical_amplitude": {"accepted": [[51, 49]]}}}}},
-        "accepted[0] = [51, 49] should be a valid number",
-    ),
     # accepted by earlier versions, and failing in a job
     ({"orbits": {"limits": [20, 40]}}, "orbits.limits = [20.0, 40.0] m/s² must hold the amplitude of orbits.seeds[1]"),
     (
@@ -171,7 +159,6 @@ WRONG = [
         {"regressions": {"height": {"critical": "edgee"}}},
         "regressions.height.critical = 'edgee' is unknown; did you mean edge?",
     ),
-    ({"claims": {"C99": {**CONFIG["claims"]["C01"]}}}, "claims has the unknown name 'C99'; did you mean"),
     (
         {"sweeps": {"heights": {"axes": {"acceleration": [29.0, 29]}}}},
         "acceleration = [29.0, 29] has 29.0 twice",
@@ -216,14 +203,6 @@ WRONG = [
     ),
     # tables and settings that the default config does not have there
     ({"figures": {"fig03": {"settings": {"acceleration": 40.0}}}}, "figures.fig03.settings.acceleration is an unknown"),
-    (
-        {"claims": {"C01": {"quantities": {"mine": CONFIG["claims"]["C01"]["quantities"]["critical_amplitude"]}}}},
-        "claims.C01.quantities.mine is an unknown key; there are critical_amplitude",
-    ),
-    (
-        {"claims": {"C01": {"finding": "about_states.critical_heigth"}}},
-        "claims.C01.finding = 'about_states.critical_heigth' is not a finding of the default config; did you mean",
-    ),
     (
         {"prefix": "mine", "model": {"static_friction": 0.1}},
         "model has static_friction = 0.1 below friction = 0.15; give a larger static_friction, or leave it out",
@@ -293,11 +272,6 @@ def test_configs_are_valid():
         {"sweeps": {"mine": MINE, "mine_euler": MINE}},
         {"sweeps": {"mine": MINE, "mine_tighter": MINE}},
         {"critical": {"edge_euler": {"step": 1.0e-6}}},
-        {
-            "claims": {
-                "C01": {"finding": "about_states.critical_acceleration", "quantities": {"critical_amplitude": {}}}
-            }
-        },
         {"figures": {"fig03": {"tables": {"euler": "sweeps/amplitudes"}, "marks": {"critical_acceleration": 45}}}},
         {"prefix": "mine_1"},
         {"model": {"static_friction": 0.15}},
@@ -356,7 +330,7 @@ def test_config_has_the_defaults_of_the_library():
 
 def test_an_entry_depends_on_what_it_uses_only():
     settings = resolve(merged(CONFIG, {"sweeps": {"mine": {**MINE, "model": {"damping": 0.2}}}}), "sweeps", "mine")
-    assert settings["model"].keys() == model.UNITS.keys() - {"acceleration", "z0", "static_friction"}
+    assert settings["model"].keys() == UNITS.keys() - {"acceleration", "z0", "static_friction"}
     assert settings["model"]["damping"] == 0.2
     assert settings["tolerance"] == CONFIG["solver"]["tolerance"]
     assert "step" not in settings

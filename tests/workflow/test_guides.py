@@ -64,7 +64,6 @@ def test_a_guide_can_be_read_where_it_lies(page):
 
 def test_names_that_the_guide_says_to_edit_exist():
     for file, name in (
-        ("scripts/conveyor_pipeline/paper/claims/settings.py", "CLAIMS"),
         ("scripts/conveyor_pipeline/machine/operating/settings.py", "TABLE_SETTINGS"),
         ("scripts/conveyor_pipeline/figures/style.py", "METHODS"),
         ("scripts/conveyor/parameters.py", "FIXED_STEP_METHODS"),

@@ -66,7 +66,7 @@ def test_another_model_without_a_prefix_is_refused(model, named):
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_axes_of_the_paper_are_what_the_config_says(name):
     paper, own = load({}), load(yaml.safe_load(EXAMPLES[name].read_text()))
-    for section in ("sweeps", "estimates", "critical", "orbits", "attractors", "solver", "figures", "claims"):
+    for section in ("sweeps", "estimates", "critical", "orbits", "attractors", "solver", "figures"):
         assert own[section] == paper[section]
 
 

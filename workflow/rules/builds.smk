@@ -5,7 +5,7 @@ import json
 TESTED_TABLES = [name for name in references(config) if RESULT_TESTS and name.startswith(tuple(TESTED))]
 CHECKED = [result("checked.txt")] if RESULT_TESTS else []
 # The tables that figures, captions, claims and tests of the results read.
-BUILT_TABLES = sorted({*references_of(config["figures"]), *references_of(config["claims"]), *TESTED_TABLES})
+BUILT_TABLES = sorted({*references_of(config["figures"]), *references_of(CLAIMS), *TESTED_TABLES})
 BUILT_FILES = sorted(
     {
         *map(table, BUILT_TABLES),

@@ -121,9 +121,7 @@ def check_ascending(values: list) -> list:
 
 def check_interval(values: list, point: bool) -> list:
     low, high = values
-    if low is high is None:
-        raise ValueError("has no bound; give at least one")
-    if low is not None and high is not None and (low > high or (low == high and not point)):
+    if low > high or (low == high and not point):
         raise ValueError(f"is {'reversed' if low > high else 'empty'}; give [least, largest]")
     return values
 
@@ -148,7 +146,7 @@ def many(item: Any, description: str, least: int = 1, check=check_distinct) -> A
 
 
 def interval(item: Any, description: str, point: bool = False) -> Any:
-    """[least, largest], or null for no bound; `point` says whether both may be equal."""
+    """[least, largest]; `point` says whether both may be equal."""
     field = Field(min_length=2, max_length=2, description=description)
     return Annotated[list[item], field, AfterValidator(partial(check_interval, point=point))]
 

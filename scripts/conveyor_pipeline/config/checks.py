@@ -175,17 +175,17 @@ def faults_of_step(key: str, step: float, duration: float, frequency: float) -> 
 
 def known_tables(config: dict, defaults: dict) -> list[str]:
     """The tables of a config, and those that are no entry but that the default config reads."""
-    read = [reference for section in (*FIGURES, "claims") for reference in references_of(defaults[section])]
+    read = [reference for section in FIGURES for reference in references_of(defaults[section])]
     return [*references(by_methods(config)), *(name for name in read if name.split("/")[0] not in NAMED)]
 
 
 def unknown_tables(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    """Tables of figures and claims that the config does not have."""
+    """Tables of figures that the config does not have."""
     tables = known_tables(config, defaults)
     yield from faults_of_names(
-        (f"{user}.{name}.{key}.{role}", table, tables)
-        for user in (*FIGURES, "claims")
-        for name, entry in config[user].items()
+        (f"{section}.{name}.{key}.{role}", table, tables)
+        for section in FIGURES
+        for name, entry in config[section].items()
         for key in ("tables", "caption_tables")
         for role, table in entry.get(key, {}).items()
     )
@@ -211,28 +211,13 @@ def figures(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 
 
 def unused_keys(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    """Tables and settings that the default config does not have: no plot script and no finding uses them."""
-    parts = [
-        (f"{section}.{name}", entry, defaults[section][name], ("tables", "caption_tables", "settings", "marks"))
-        for section in FIGURES
-        for name, entry in config[section].items()
-        if name in defaults[section]
-    ]
-    for name, claim in config["claims"].items():
-        # The default claim with the same finding, if possible with the same name.
-        claims = ({name: {}} | defaults["claims"]).values()
-        if default := next((one for one in claims if one.get("finding") == claim["finding"]), None):
-            parts.append((f"claims.{name}", claim, default, ("tables", "quantities", "settings")))
-        else:
-            remedy = suggest_name(claim["finding"], [one["finding"] for one in defaults["claims"].values()])
-            yield f"claims.{name}.finding = {claim['finding']!r} is not a finding of the default config; {remedy}"
-    for place, entry, default, keys in parts:
-        for key in keys:
-            given, known = entry.get(key, {}), default.get(key, {})
-            for name in (name for name in given if name not in known):
-                yield f"{place}.{key}.{name} is an unknown key; {suggest_name(name, known)}"
-            for name in (name for name in known if name not in given):
-                yield f"{place}.{key}.{name} is missing; add it"
+    """Tables and settings of figures that the default config does not have: no plot script uses them."""
+    for section in FIGURES:
+        for figure in config[section].keys() & defaults[section]:
+            for key in ("tables", "caption_tables", "settings", "marks"):
+                given, known = (entries[figure].get(key, {}) for entries in (config[section], defaults[section]))
+                for name in (name for name in given if name not in known):
+                    yield f"{section}.{figure}.{key}.{name} is an unknown key; {suggest_name(name, known)}"
 
 
 CHECKS = (prefix, file_names, methods, axes, friction, sweeps, steps, unknown_tables, figures, unused_keys)

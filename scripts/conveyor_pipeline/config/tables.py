@@ -25,7 +25,7 @@ def references(config: dict) -> list[str]:
 
 
 def references_of(entries: dict) -> list[str]:
-    """The tables that claims read, or figures with their captions."""
+    """The tables that claims read, or figures with their captions; `entries` are the claims or figures by name."""
     roles = [entry.get(key, {}) for entry in entries.values() for key in ("tables", "caption_tables")]
     return sorted({reference for of_entry in roles for reference in of_entry.values()})
 
@@ -54,13 +54,13 @@ def settings_of(config: dict, reference: str) -> dict:
     return config[section][name] if section == "regressions" else resolve(config, section, name)
 
 
-def tighter_claims(config: dict) -> dict[str, dict]:
+def tighter_claims(config: dict, claims: dict[str, dict]) -> dict[str, dict]:
     """The claims whose uncertainty is estimated, with tables of tighter tolerances for the converged solution."""
-    known, claims = set(references(config)), {}
+    known, tightened = set(references(config)), {}
     for name in config["uncertainty"]["claims"]:
-        claim = config["claims"][name]
+        claim = claims[name]
         # A claim without a role of this name reads converged tables only.
         roles = [role for role in claim["tables"] if role.startswith("converged")] or claim["tables"]
         tighter = {role: claim["tables"][role] + TIGHTER for role in roles if claim["tables"][role] + TIGHTER in known}
-        claims[name] = claim | {"tables": claim["tables"] | tighter}
-    return claims
+        tightened[name] = claim | {"tables": claim["tables"] | tighter}
+    return tightened

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from conveyor_pipeline.config.checks import faults_of_names
 from conveyor_pipeline.config.entries import by_methods, resolve, values_of, variants
+from conveyor_pipeline.paper.claims.statements import read_claims
 
 
 def perturbations(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
@@ -57,11 +58,12 @@ def dimensions(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 
 
 def unknown_names(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    """Entries and claims that the config does not have."""
+    """Entries that the config does not have, and claims that the paper does not have."""
     fitted = by_methods(config)["critical"]
     used = [(f"regressions.{name}.critical", one["critical"], fitted) for name, one in config["regressions"].items()]
     used += [("sensitivity.critical", config["sensitivity"]["critical"], fitted)]
-    used += [("uncertainty.claims", name, config["claims"]) for name in config["uncertainty"]["claims"]]
+    named = enumerate(config["uncertainty"]["claims"])
+    used += [(f"uncertainty.claims[{place}]", name, read_claims()) for place, name in named]
     yield from faults_of_names(used)
 
 

@@ -11,6 +11,7 @@ from conveyor_pipeline.config import canonical, problems
 from conveyor_pipeline.config.entries import by_methods, with_tighter
 from conveyor_pipeline.config.tables import tighter_claims
 from conveyor_pipeline.paper.claims import uncertainty
+from conveyor_pipeline.paper.claims.statements import read_claims
 from conveyor_pipeline.paper.claims.verdicts import REPRODUCED
 
 CONFIG = read_config()
@@ -37,23 +38,26 @@ def test_a_fit_is_made_from_tighter_heights():
     config = tightened({"uncertainty": {"claims": ["C09"]}})
     assert config["regressions"]["height.tighter"]["critical"] == "edge.tighter"
     assert "height_euler.tighter" not in config["regressions"]
-    tables = tighter_claims(config)["C09"]["tables"]
+    tables = tighter_claims(config, read_claims())["C09"]["tables"]
     assert "regressions/height.tighter" in tables.values()
     assert "regressions/height_euler" in tables.values()
 
 
 def test_tables_without_a_tolerance_stay():
     """A claim about first impacts, which have closed forms, reads the same table again."""
-    claims = {"C01": CONFIG["claims"]["C01"] | {"tables": {"converged": "sweeps/amplitudes", "map": "impacts/map"}}}
-    config = tightened({}) | {"claims": claims, "uncertainty": {"claims": ["C01"]}}
-    assert tighter_claims(config)["C01"]["tables"] == {"converged": "sweeps/amplitudes.tighter", "map": "impacts/map"}
+    claims = {"C01": {"tables": {"converged": "sweeps/amplitudes", "map": "impacts/map"}}}
+    config = tightened({"uncertainty": {"claims": ["C01"]}})
+    assert tighter_claims(config, claims)["C01"]["tables"] == {
+        "converged": "sweeps/amplitudes.tighter",
+        "map": "impacts/map",
+    }
 
 
 @pytest.mark.parametrize(
     ("overlay", "words"),
     [
         ({"tighter": 1.0}, "uncertainty.tighter = 1.0 should be more than 1"),
-        ({"claims": ["C99"]}, "uncertainty.claims[0] = 'C99' should be 'C01', "),
+        ({"claims": ["C99"]}, "uncertainty.claims[0] = 'C99' is unknown; did you mean"),
     ],
 )
 def test_a_wrong_key_is_named(overlay, words):
@@ -66,7 +70,7 @@ def edges(height: float) -> pd.DataFrame:
 
 @pytest.mark.parametrize(("tighter", "same"), [(0.0721e-3, True), (0.0761e-3, False)])
 def test_changes_and_verdicts_come_from_the_tighter_tables(tighter, same):
-    claim = CONFIG["claims"]["C07"] | {"tables": {"converged": "critical/edge.tighter", "euler": "critical/edge_euler"}}
+    claim = read_claims()["C07"] | {"tables": {"converged": "critical/edge.tighter", "euler": "critical/edge_euler"}}
     before = pd.DataFrame({"id": ["C07"], "verdict": [REPRODUCED], "converged": [[0.072]]})
     read = [edges(0.071e-3), edges(tighter)]
     found = json.loads(

@@ -5,10 +5,11 @@ import math
 import numpy as np
 import pandas as pd
 import pytest
-from project import ROOT, read_config
+from project import ROOT
 
 from conveyor_pipeline.paper.claims import about_chaos, about_proofs, about_states, verdicts
 from conveyor_pipeline.paper.claims.finding import Finding, onset
+from conveyor_pipeline.paper.claims.statements import read_claims
 
 AMPLITUDES = np.arange(20.0, 91.0)
 
@@ -84,7 +85,7 @@ def test_a_missing_quantity_is_an_error():
         verdicts.verdict(Finding({}, {"a": 1.0}), quantities(a=[0.5, 1.5], b=[0.0, 1.0]))
 
 
-CLAIMS = read_config()["claims"]
+CLAIMS = read_claims()
 
 
 def test_a_claim_names_its_finding_its_tables_and_its_settings():

@@ -1,16 +1,16 @@
 # The paper's statements with their verdicts.
 from conveyor_pipeline.config.tables import tighter_claims
+from conveyor_pipeline.paper.claims.statements import read_claims
 
-# Each claim alone.
-CLAIM = {name: {name: claim} for name, claim in config["claims"].items()}
+CLAIMS = read_claims()
 CLAIM_FILES = [table("results/claims"), result("claims.md")] if IS_PAPER else []
-TIGHTER_CLAIMS = tighter_claims(config)
+TIGHTER_CLAIMS = tighter_claims(config, CLAIMS)
 
 
 rule claims:
     """The paper's statements."""
     input:
-        read=lambda wildcards: tables_of_claims(config["claims"]),
+        read=lambda wildcards: tables_of_claims(CLAIMS),
         template=source("workflow/templates/claims.md"),
     output:
         claims=table("results/claims"),
@@ -23,9 +23,9 @@ rule claims:
         **stage(
             "conveyor_pipeline.paper.claims.verdicts",
             "results/claims",
-            scripts=lambda wildcards: findings_of(config["claims"]),
+            scripts=lambda wildcards: findings_of(CLAIMS),
         ),
-        references=references_of(config["claims"]),
+        references=references_of(CLAIMS),
     script:
         "../../../scripts/conveyor_pipeline/make.py"
 
@@ -33,7 +33,7 @@ rule claims:
 rule claim:
     """One of the statements."""
     input:
-        read=lambda wildcards: tables_of_claims(CLAIM[wildcards.name]),
+        read=lambda wildcards: tables_of_claims(claim_alone(wildcards)),
         template=source("workflow/templates/claims.md"),
     output:
         report=result("claims/{name}.md"),
@@ -42,14 +42,14 @@ rule claim:
     benchmark:
         benchmark_file("checks/claims/{name}")
     wildcard_constraints:
-        name=one_of(config["claims"]),
+        name=one_of(CLAIMS),
     params:
         **stage(
             "conveyor_pipeline.paper.claims.one_claim",
-            scripts=lambda wildcards: findings_of(CLAIM[wildcards.name]),
+            scripts=lambda wildcards: findings_of(claim_alone(wildcards)),
         ),
-        settings=lambda wildcards: {"claims": CLAIM[wildcards.name]},
-        references=lambda wildcards: references_of(CLAIM[wildcards.name]),
+        settings=lambda wildcards: {"claims": claim_alone(wildcards)},
+        references=lambda wildcards: references_of(claim_alone(wildcards)),
     script:
         "../../../scripts/conveyor_pipeline/make.py"
 

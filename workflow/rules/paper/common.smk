@@ -37,6 +37,11 @@ def tables_of_claims(claims):
     return [table(reference) for reference in references_of(claims)]
 
 
+def claim_alone(wildcards):
+    """One claim by its name."""
+    return {wildcards.name: CLAIMS[wildcards.name]}
+
+
 def findings_of(claims):
     """The modules that compute the findings of claims, as paths below scripts/ without ".py"."""
     names = sorted({claim["finding"].split(".")[0] for claim in claims.values()})

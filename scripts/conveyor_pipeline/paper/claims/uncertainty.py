@@ -17,7 +17,7 @@ def differences(now: list[float], tighter: list[float]) -> list[float | None]:
 def make(settings: dict, references: list[str], read: list[pd.DataFrame], claims: pd.DataFrame) -> str:
     """The change of each converged number, and whether the verdict stays the same, by statement, as JSON.
 
-    settings : `claims`, entries of the config that refer to tables with tighter tolerances
+    settings : `claims`, which refer to tables with tighter tolerances
     references, read : names of these tables, SECTION/NAME, and the tables
     claims : the table of all claims at the usual tolerances
     """

@@ -38,13 +38,13 @@ PER_QUANTITY = ("paper", "paper_method", "converged", "accepted_low", "accepted_
 
 
 def finding_of(claim: dict) -> Callable[..., Finding]:
-    """The function that a claim of the config names as `finding`; its module is in the folder `claims` of any floor."""
+    """The function that a claim names as `finding`; its module is in the folder `claims` of any floor."""
     module, function = claim["finding"].split(".")
     return getattr(importlib.import_module(f"{package_of(module, 'claims')}.{module}"), function)
 
 
 def evaluate(claim: dict, read: dict[str, pd.DataFrame]) -> Finding:
-    """The Finding of a claim of the config, from the tables by reference."""
+    """The Finding of a claim, from the tables by reference."""
     tables_by_role = {role: read[reference] for role, reference in claim["tables"].items()}
     return finding_of(claim)(**tables_by_role, **claim.get("settings", {}))
 
@@ -91,7 +91,7 @@ def numbers(values: dict[str, float], quantities: dict[str, dict]) -> list[float
 
 
 def row(name: str, claim: dict, finding: Finding) -> dict:
-    """The row of a claim of the config."""
+    """The row of a claim."""
     quantities = claim["quantities"]
     result = verdict(finding, quantities)
     misses = "" if result == REPRODUCED else describe_misses(finding, quantities)
