@@ -15,7 +15,7 @@ from prose import typed
 from conveyor_pipeline.figures import captions
 from conveyor_pipeline.figures.titles import title_of
 from conveyor_pipeline.paper.caption_numbers import bifurcation
-from conveyor_pipeline.paper.sensitivity.changes import UNEVEN
+from conveyor_pipeline.paper.sensitivity.limits import UNEVEN
 
 CONFIG = read_config()
 FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]

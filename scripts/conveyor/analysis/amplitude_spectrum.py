@@ -3,7 +3,6 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.signal.windows import hann
 
 
 class AmplitudeSpectrum(NamedTuple):
@@ -51,7 +50,8 @@ def windowed_spectrum(samples: np.ndarray, duration: float) -> AmplitudeSpectrum
     (3.0, 2.0)
     """
     samples = check(samples)
-    window = hann(len(samples), sym=False)
+    # As scipy.signal.windows.hann, whose import takes a second.
+    window = 0.5 + 0.5 * np.cos(np.linspace(-np.pi, np.pi, len(samples) + 1))[:-1]
     mean = np.sum(window * samples) / window.sum()
     spectrum = one_sided((samples - mean) * window, duration, window.sum())
     spectrum.amplitude[0] = abs(mean)

@@ -11,6 +11,7 @@ from project import read_config
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.paper.orbits import branches, exponents, seeds, strobes
+from conveyor_pipeline.paper.orbits.limits import SIGNIFICANT
 
 MODEL = {
     "acceleration": 40.0,
@@ -66,7 +67,7 @@ def test_exponents_sum_to_the_damping_in_contact(tables):
 
 def test_only_chaos_has_a_positive_exponent(tables):
     _, spectrum = tables
-    positive = spectrum.lambda_1 > exponents.SIGNIFICANT * spectrum.stderr
+    positive = spectrum.lambda_1 > SIGNIFICANT * spectrum.stderr
     assert (positive == (spectrum.acceleration == 80.0)).all()
 
 

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 import pandas as pd
-from scipy.stats.mstats import mjci
+from scipy.special import betainc
 
 from conveyor import Columns, transits
 from conveyor_pipeline.common import fields, grid
@@ -74,7 +74,22 @@ def quantiles(velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The quantiles of velocities, shape (n,), and their standard errors (Maritz and Jarrett 1978), shape (5,)."""
     values = np.quantile(velocity, PROBABILITIES)
     # Without the offset, equal velocities have the error 0 in spite of rounding.
-    return values, mjci(velocity - values[2], PROBABILITIES)
+    return values, maritz_jarrett(velocity - values[2])
+
+
+def maritz_jarrett(data: np.ndarray) -> np.ndarray:
+    """Standard errors of the quantiles of data, shape (n,) to (5,), as scipy.stats.mstats.mjci, whose import takes a
+    second; NaN for too few data.
+    """
+    count, errors = len(data), np.full(len(PROBABILITIES), np.nan)
+    data, x = np.sort(data), np.arange(1, count + 1, dtype=np.float64) / count
+    for place, probability in enumerate(PROBABILITIES):
+        above = int(count * probability + 0.5)
+        if 1 < above < count:
+            weights = betainc(above - 1, count - above, x) - betainc(above - 1, count - above, x - 1.0 / count)
+            first, second = np.dot(weights, data), np.dot(weights, data**2)
+            errors[place] = np.sqrt(second - first**2)
+    return errors
 
 
 def spread_of(values: np.ndarray) -> np.ndarray:

@@ -3,8 +3,7 @@
 import pandas as pd
 
 from conveyor_pipeline.paper.claims.about_states import find_runs, format_runs
-from conveyor_pipeline.paper.orbits.branches import MOST_ORBITS
-from conveyor_pipeline.paper.orbits.exponents import SIGNIFICANT
+from conveyor_pipeline.paper.orbits.limits import MOST_ORBITS, SIGNIFICANT
 
 
 def is_chaotic(spectrum: pd.DataFrame) -> pd.Series:

@@ -3,7 +3,7 @@
 import pandas as pd
 
 from conveyor_pipeline.paper.figures.fig10 import ends_of
-from conveyor_pipeline.paper.motion.critical import RESOLUTION
+from conveyor_pipeline.paper.motion.limits import RESOLUTION
 
 
 def format_change(least: float, most: float) -> str:

@@ -1,6 +1,6 @@
 """Numbers of the caption of the figure fig24."""
 
-from conveyor_pipeline.paper.dimensions.portraits import LARGEST_ERROR
+from conveyor_pipeline.paper.dimensions.limits import LARGEST_ERROR
 
 
 def numbers() -> dict:

@@ -4,8 +4,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor_pipeline.common.templates import format_number
-from conveyor_pipeline.paper.sensitivity.changes import UNEVEN
-from conveyor_pipeline.paper.sensitivity.selection import LONGEST_PERIOD, MOST
+from conveyor_pipeline.paper.sensitivity.limits import LONGEST_PERIOD, MOST, UNEVEN
 
 
 def numbers(

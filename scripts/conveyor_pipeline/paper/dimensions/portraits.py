@@ -6,6 +6,7 @@ from conveyor import Dimension, box_dimension, correlation_dimension, sample_run
 from conveyor.analysis.fractals.box_counting import box_dimension_of_paper
 from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.paper.dimensions.limits import LARGEST_ERROR
 
 TABLES = {
     "dimensions": (
@@ -26,7 +27,6 @@ OCTAVES = 8  # the paper's box sizes: 1/2 to 1/256 of the extent; open: sizes at
 # because the number of pairs grows with their square.
 SAMPLES = {"box": 300_000, "correlation": 20_000}
 THEILER = 20  # samples, which are twelve excitation cycles: pairs at most this far apart in time are left out
-LARGEST_ERROR = 0.1  # of a settled motion, half a 95 % interval; a less certain estimate is left out
 
 
 def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:

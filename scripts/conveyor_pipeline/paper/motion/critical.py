@@ -9,8 +9,8 @@ from conveyor.analysis.attractors.attractor_table import AttractorTable
 from conveyor.analysis.basins.boundary_scan import find_crossings, select_critical
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import search_options, shared_attractors
+from conveyor_pipeline.paper.motion.limits import RESOLUTION
 
-RESOLUTION = 2e-6  # to which bisection locates a height, as a share of the scanned range: 1 nm of the range of Fig. 8
 NOT_LOCATED = "between two heights of the scan"
 TABLES = {
     "critical": (

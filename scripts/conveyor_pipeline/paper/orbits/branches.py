@@ -16,9 +16,9 @@ from conveyor.analysis.bifurcations.continuation import explore_bifurcations, fo
 from conveyor.analysis.bifurcations.periodic_orbits import ReturnMap
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.rule_log import JobError
+from conveyor_pipeline.paper.orbits.limits import MOST_ORBITS
 from conveyor_pipeline.paper.orbits.seeds import seeds
 
-MOST_ORBITS = 30_000  # after which no further branch is followed: five times as many as the paper's conveyor has
 TABLES = {
     "branches": (
         fields.count("branch", "number of the branch"),

@@ -9,7 +9,6 @@ from conveyor_pipeline.common import fields, grid
 
 # Excitation cycles in a block, and blocks, from whose means the standard error is computed.
 CYCLES, BLOCKS = 100, 20
-SIGNIFICANT = 3.0  # standard errors from zero of an exponent whose sign is certain
 TABLES = {
     "spectrum": (
         fields.ORBIT[1],

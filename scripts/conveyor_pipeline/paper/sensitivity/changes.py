@@ -19,6 +19,7 @@ from conveyor import (
 from conveyor.analysis.basins.boundary_scan import locate_change
 from conveyor.analysis.bifurcations.bifurcation_points import BifurcationPoint, find_bifurcation
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.paper.sensitivity.limits import UNEVEN
 from conveyor_pipeline.paper.sensitivity.selection import COLUMNS, select_bifurcations
 
 TABLES = {
@@ -46,9 +47,8 @@ PART = 0.01  # relative change of a parameter
 # Steps to the changed parameters, each of which begins Newton's iteration at the line through the last two solutions.
 STEPS = 5
 # Largest difference of the changes by +1 % and -1 %, relative to their mean or to 1 % of the quantity's scale: else,
-# another point was found, or the boundary is not smooth.
+# another point was found, or the boundary is not smooth, and the status is UNEVEN.
 LARGEST = 0.2
-UNEVEN = "changes by +1 % and -1 % differ"  # the status of such a point
 REST = (0.0, 0.0)  # m, m/s: the initial condition of Fig. 3, whose critical amplitude changes
 # A change of state is located to this part of the amplitude or of the unit of length, and lies within REACH of the
 # amplitudes and heights in the table. It moves less than MOVE when a parameter changes.

@@ -14,9 +14,8 @@ from conveyor.analysis.bifurcations.bifurcation_points import (
     touching_point,
 )
 from conveyor_pipeline.common import fields
+from conveyor_pipeline.paper.sensitivity.limits import LONGEST_PERIOD, MOST
 
-LONGEST_PERIOD = 1  # excitation cycles, of the folds, doublings and grazings; longer orbits have too many to show
-MOST = 6  # bifurcations of each kind, those at the lowest amplitudes; the paper's conveyor has five
 # Largest relative difference of the amplitudes of one bifurcation in two tables, or in a table and solved again.
 SAME = 1e-6
 COLUMNS = (

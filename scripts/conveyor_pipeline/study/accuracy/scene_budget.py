@@ -15,6 +15,7 @@ from conveyor import conveyor_and_start, simulate
 from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.study.accuracy import observables
+from conveyor_pipeline.study.accuracy.limits import PIXELS
 from conveyor_pipeline.study.accuracy.observables import SHOWN
 from conveyor_pipeline.study.accuracy.timing import run_in_turns
 
@@ -46,9 +47,6 @@ TABLES = {
 }
 
 TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)  # a table is compared at the ones looser than its own
-# Largest accepted share of drawn values that change visibly: one in a hundred, or four of the 400 points of a map. It
-# was 0.005 before the maps were computed, and was raised afterwards.
-PIXELS = 0.01
 TIGHT, TIGHTER = 1e-13, 3e-14
 # Excitation cycles of each variant and before the first sample of a portrait; number of samples of a portrait.
 CYCLES, SAMPLES = 1000, 20000

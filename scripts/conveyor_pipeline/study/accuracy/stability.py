@@ -14,6 +14,7 @@ from conveyor.parameters import FIXED_STEP_METHODS
 from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields
 from conveyor_pipeline.study.accuracy.closed_forms import compression, undamped_duration
+from conveyor_pipeline.study.accuracy.limits import HEIGHT, PANELS, VELOCITY
 
 TABLES = {
     "stability": (
@@ -27,15 +28,8 @@ TABLES = {
 }
 
 RIGHT, WRONG, GROWS, BLOWS_UP = "right", "wrong state", "energy grows", "blow-up"
-# Varied quantities besides the step: spacing, least and largest value, and number of values.
-PANELS = {
-    "stiffness": (np.geomspace, 1.0e3, 1.0e7, 13),  # N/m
-    "damping": (np.geomspace, 0.03, 10.0, 13),  # N s/m
-    "impact velocity": (np.geomspace, 0.01, 3.0, 25),  # m/s, of a Hertz contact
-    "conveyor": (np.linspace, 20.0, 50.0, 16),  # m/s², amplitudes of the paper's conveyor without chaos
-}
 STEPS = (2.0e-7, 3.0e-3, 43)  # s; least and largest step, and number of steps
-HEIGHT, DURATION = 0.3e-3, 0.5  # m, s: initial height and duration of the runs of the paper's conveyor
+DURATION = 0.5  # s, of the runs of the paper's conveyor
 # Linear contact where stiffness (N/m) or damping (N s/m) is not varied: p = 1, for which a theory exists.
 CONTACT = {"stiffness": 1.0e5, "damping": 0.3}
 TRUTH = 1e-13  # tolerance of the solver as the reference
@@ -44,7 +38,6 @@ FAR = 1.0  # m: distance of a part after a blow-up
 PRESSED = 0.5
 FOLDINGS = 8.0  # duration of a run at rest, in decay times of the contact
 RESTITUTION = 0.05  # largest error of a coefficient of restitution that counts as right
-VELOCITY = 0.05  # largest relative error of a mean velocity that counts as the right state
 
 
 def characteristic(stiffness: float, damping: float, mass: float) -> tuple[complex, complex]:

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from conveyor_pipeline.study.accuracy.stability import HEIGHT, PANELS, VELOCITY
+from conveyor_pipeline.study.accuracy.limits import HEIGHT, PANELS, VELOCITY
 
 
 def numbers(*, stability: pd.DataFrame) -> dict:

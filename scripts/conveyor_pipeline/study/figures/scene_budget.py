@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter
 
 from conveyor_pipeline.figures import style
-from conveyor_pipeline.study.accuracy.scene_budget import PIXELS
+from conveyor_pipeline.study.accuracy.limits import PIXELS
 
 TOLERANCES = {1e-4: "#D55E00", 1e-6: "#E69F00", 1e-8: "#009E73", 1e-10: "#56B4E9", 1e-12: "#0072B2"}
 VARIANTS = {"half the time": ("s", "#CC79A7"), "rigid part": ("^", "black")}
