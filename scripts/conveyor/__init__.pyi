@@ -37,6 +37,14 @@ from .analysis.amplitude_spectrum import (
     windowed_spectrum as windowed_spectrum,
 )
 
+# Parts as rigid bodies
+from .blocks.runs import (
+    Block as Block,
+    BlockRun as BlockRun,
+    block_transits as block_transits,
+    simulate_block as simulate_block,
+)
+
 # The stroboscopic map
 from .analysis.map_states import initial_states as initial_states, start_at as start_at, strobes as strobes
 

@@ -11,6 +11,7 @@ UNITS = {
     **{"arrival": "s", "velocity": "m/s", "acceleration": "m/s²", "displacement": "m"},
     **{"period": "1", "longest_flight": "1", "cycles": "1", "delta": "m", "v": "m/s"},
     **{"lambda_1": "1/s", "lambda_2": "1/s", "stderr": "1/s"},
+    **{"airtime": "1", "largest_tilt": "rad"},
     **{"state": "", "status": ""},
 }
 

@@ -1,0 +1,1 @@
+"""Parts as planar rigid blocks, which touch the plate with their corners."""

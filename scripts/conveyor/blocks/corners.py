@@ -1,0 +1,197 @@
+"""The corners of a block: where they are, their contact forces, and friction in slip and in stick.
+
+A corner has half of the contact's stiffness and of its damping. With the offset (o_x, o_z) of a corner from the centre,
+its contact force N and friction f, both per mass of the block, and the moment of inertia per mass, I/m,
+
+    z̈ = -g cos α + Σ N,    ẍ = -g sin α + Σ f,    (I/m) α̈ = Σ (o_x N - o_z f).
+
+The slip velocity u = ẋ_s - ẋ of a corner then changes with the rate b - Σ_j (1 + o_z o_zj m/I) f_j, in which b contains
+everything but friction. A corner that slips has the friction μN sign(u). The frictions of those that stick follow from
+u̇ = 0. Because the contact forces depend on the state alone, these linear equations always have a solution.
+
+A state is an array: x (m), vx (m/s), z (m), vz (m/s) of the centre, angle (rad; positive where the front is raised),
+spin (rad/s).
+`now` is an array of shape (12, 4) with what is known of each corner at one moment.
+"""
+
+import math
+from collections import namedtuple
+
+from conveyor.solver import contact_law, friction, model, plate
+from conveyor.solver.jit import compiled, compiled_inline
+
+X, VX, Z, VZ, ANGLE, SPIN = range(6)
+STATE = 6
+CORNERS = 4
+# Rows of `now`: offset from the centre (m), gap (m) and its rate (m/s), slip velocity (m/s); contact force and friction
+# per mass (m/s²); one of the modes below; the contact force that spring and damper would have, and whether it is
+# negative, which matters for `frictionless` and `clip`; whether a corner may stick (-1: it slips), and its best mode so
+# far, in `choose_modes`.
+OX, OZ, GAP, RATE, SLIP, FORCE, RUB, MODE, WHOLE, PULLED, MAY_STICK, BEST = range(12)
+ROWS = 12
+# What a corner does. With one of the last two it slips, and friction pushes it forward or backward.
+FREE, STICK, FORWARD, BACKWARD = 0.0, 1.0, 2.0, 3.0
+MOST_STICKING = 2  # the equations of more corners depend on each other
+# Share of the friction equations' diagonal that is added to it. Two corners at equal heights have dependent equations;
+# with this they share the friction in equal parts. A sticking corner then creeps with this share of its acceleration.
+REGULAR = 1e-9
+# The smallest size that counts as a step over a limit: of a gap (m), a slip velocity (m/s) and a force per mass (m/s²).
+Margins = namedtuple("Margins", "gap slip force")
+# Half of the length and of the height (m), and the moment of inertia per mass (m²).
+Body = namedtuple("Body", "half_length half_height inertia")
+
+
+@compiled_inline
+def margins_of(c):
+    """The Margins at the tolerance of a conveyor, given by its contact.Constants."""
+    speed = c.scale_v + (c.a_x + c.gravity) / c.omega
+    return Margins(c.tolerance * c.scale_w * c.scale_w, 0.1 * c.tolerance * speed, c.tolerance * c.gravity)
+
+
+@compiled_inline
+def locate(c, body, theta, state, now):
+    """Fill offsets, gaps, their rates and slip velocities of all corners at a phase (rad).
+
+    Returns the pull along the track per mass (m/s²), see solver.friction.
+    """
+    sine, cosine = plate.sine_and_cosine(theta)
+    height, rise, speed = plate.height(c, sine, cosine), plate.rise(c, sine, cosine), plate.speed(c, sine, cosine)
+    up, along = math.sin(state[ANGLE]), math.cos(state[ANGLE])
+    for i in range(CORNERS):
+        x = body.half_length if i % 2 else -body.half_length
+        z = body.half_height if i >= 2 else -body.half_height
+        ox, oz = x * along - z * up, x * up + z * along
+        now[OX, i], now[OZ, i] = ox, oz
+        now[GAP, i] = state[Z] + oz - height
+        now[RATE, i] = state[VZ] + state[SPIN] * ox - rise
+        now[SLIP, i] = speed - state[VX] + state[SPIN] * oz
+    return friction.pull(c, sine, cosine)
+
+
+@compiled_inline
+def push(c, now):
+    """Fill the contact forces of all corners."""
+    for i in range(CORNERS):
+        now[WHOLE, i] = now[FORCE, i] = 0.0
+        if now[MODE, i] != FREE:
+            now[WHOLE, i] = 0.5 * contact_law.force(c, math.sqrt(max(-now[GAP, i], 0.0)), -now[RATE, i])
+            if not (now[PULLED, i] and c.tension == model.TENSION_CLIP):
+                now[FORCE, i] = now[WHOLE, i]
+
+
+@compiled_inline
+def rub(c, body, pull, state, now):
+    """Fill the frictions of all corners; returns the sum of the moments of the contact forces per mass (m²/s²)."""
+    moment = slide = lever = 0.0
+    first = second = -1
+    for i in range(CORNERS):
+        moment += now[OX, i] * now[FORCE, i]
+        now[RUB, i] = 0.0
+        if now[MODE, i] == STICK:
+            first, second = (i, first) if first < 0 else (first, i)
+            continue
+        if now[MODE, i] != FREE and not (now[PULLED, i] and c.tension != model.TENSION_ALLOW):
+            now[RUB, i] = c.friction * now[FORCE, i] * (1.0 if now[MODE, i] == FORWARD else -1.0)
+            slide += now[RUB, i]
+            lever += now[OZ, i] * now[RUB, i]
+    if first >= 0:
+        spin2 = state[SPIN] * state[SPIN]
+        a = now[OZ, first]
+        at_first = pull + spin2 * now[OX, first] - slide + a * (moment - lever) / body.inertia
+        if second < 0:
+            now[RUB, first] = at_first / (1.0 + a * a / body.inertia)
+        else:
+            b = now[OZ, second]
+            at_second = pull + spin2 * now[OX, second] - slide + b * (moment - lever) / body.inertia
+            both, of_first, of_second = (
+                1.0 + a * b / body.inertia,
+                1.0 + a * a / body.inertia,
+                1.0 + b * b / body.inertia,
+            )
+            # The determinant without cancellation.
+            extra = REGULAR * (of_first + of_second)
+            determinant = (a - b) * (a - b) / body.inertia + extra * (of_first + of_second)
+            now[RUB, first] = (at_first * (of_second + extra) - at_second * both) / determinant
+            now[RUB, second] = (at_second * (of_first + extra) - at_first * both) / determinant
+    return moment
+
+
+@compiled_inline
+def derive(c, body, theta, state, now, rates):
+    """Fill the rates of a state at a phase (rad), and everything in `now` that depends on them."""
+    pull = locate(c, body, theta, state, now)
+    push(c, now)
+    turn = rub(c, body, pull, state, now)
+    lift, along = -c.gravity, -c.downhill
+    for i in range(CORNERS):
+        lift += now[FORCE, i]
+        along += now[RUB, i]
+        turn -= now[OZ, i] * now[RUB, i]
+    rates[X], rates[Z], rates[ANGLE] = state[VX], state[VZ], state[SPIN]
+    rates[VX], rates[VZ], rates[SPIN] = along, lift, turn / body.inertia
+
+
+@compiled_inline
+def violation(c, body, pull, state, now):
+    """By how much (m/s²) the modes of the corners contradict Coulomb's law; 0 if they do not."""
+    moment = rub(c, body, pull, state, now)
+    worst = 0.0
+    for i in range(CORNERS):
+        if now[MODE, i] == FREE:
+            continue
+        rate = pull + state[SPIN] * state[SPIN] * now[OX, i] + now[OZ, i] * moment / body.inertia
+        for j in range(CORNERS):
+            rate -= (1.0 + now[OZ, i] * now[OZ, j] / body.inertia) * now[RUB, j]
+        if now[MODE, i] == STICK:
+            worst = max(worst, abs(now[RUB, i]) - c.static_friction * now[FORCE, i])
+        elif now[MAY_STICK, i] >= 0.0:  # at rest
+            worst = max(worst, -rate if now[MODE, i] == FORWARD else rate)
+    return worst
+
+
+@compiled
+def choose_modes(c, body, theta, state, now, slips):
+    """Give each corner that touches the plate the mode that Coulomb's law demands.
+
+    A corner with a slip velocity slips. For those without, all combinations of stick and of slip either way are tried
+    (Filippov's conditions); the first one that contradicts the law least is right. Combinations with more stick come
+    first, because static friction holds what does not slide.
+
+    slips : the corner whose static friction has just been overcome, or -1
+    """
+    pull = locate(c, body, theta, state, now)
+    push(c, now)
+    margin = margins_of(c).slip
+    combinations = 1
+    for i in range(CORNERS):
+        now[MAY_STICK, i] = -1.0
+        if now[MODE, i] == FREE:
+            continue
+        at_rest = abs(now[SLIP, i]) <= margin and c.friction + c.static_friction > 0.0
+        now[MODE, i] = FORWARD if now[SLIP, i] > 0.0 else BACKWARD
+        if at_rest:
+            combinations *= 3
+            now[MAY_STICK, i] = 0.0 if i == slips else 1.0
+    if combinations == 1:
+        return
+    least = math.inf
+    ahead, behind = (FORWARD, BACKWARD) if pull >= 0.0 else (BACKWARD, FORWARD)
+    for combination in range(combinations):
+        digits, sticking, allowed = combination, 0, True
+        for i in range(CORNERS):
+            if now[MAY_STICK, i] >= 0.0:
+                digit, digits = digits % 3, digits // 3
+                now[MODE, i] = STICK if digit == 0 else (ahead if digit == 1 else behind)
+                sticking += digit == 0
+                allowed = allowed and not (digit == 0 and now[MAY_STICK, i] == 0.0)
+        if not allowed or sticking > MOST_STICKING:
+            continue
+        worst = violation(c, body, pull, state, now)
+        if worst < least:
+            least = worst
+            for i in range(CORNERS):
+                now[BEST, i] = now[MODE, i]
+        if least <= 0.0:
+            break
+    for i in range(CORNERS):
+        now[MODE, i] = now[BEST, i]

@@ -1,0 +1,321 @@
+"""The motion of a block: flights in closed form, and steps of the contact from event to event.
+
+In flight the centre follows a parabola and the block turns uniformly. A corner's path is a parabola plus a cosine of
+the rotation. Its acceleration relative to the plate is at least -(g cos α + bound on z̈_s + |r| Ω²), with its distance
+|r| from the centre and the spin Ω. The parabola with this acceleration reaches the plate before the corner does, so
+that a step to its root is safe (see solver.flight for a point).
+"""
+
+import math
+
+from conveyor.blocks.corners import (
+    ANGLE,
+    CORNERS,
+    FORCE,
+    FORWARD,
+    FREE,
+    GAP,
+    MODE,
+    PULLED,
+    RATE,
+    SLIP,
+    SPIN,
+    STATE,
+    STICK,
+    VX,
+    VZ,
+    WHOLE,
+    Body,
+    X,
+    Z,
+    choose_modes,
+    derive,
+    locate,
+    margins_of,
+    push,
+)
+from conveyor.blocks.steps import PULL, STAGES, TOUCH, first_event, interpolate, take_step
+from conveyor.solver import contact, plate
+from conveyor.solver.flight import time_of_fall
+from conveyor.solver.jit import compiled, no_refcount
+from conveyor.solver.model import VZ0, Z0
+from conveyor.solver.status import IMPACT_LOST, NOT_FINITE, OK, TOO_MANY_EVENTS, TOO_STIFF
+
+SAMPLES = ("x", "vx", "z", "vz", "angle", "spin")
+# Columns of the results of runs: the status code; the largest angle (rad); from the time `since` on, the time without
+# contact (s), the largest speed of approach of a corner (m/s) and the largest sum of contact forces per mass (m/s²);
+# numbers of flights, steps, and events; numbers of times with a sample and of distances reached.
+CODE, TILT, AIRTIME, IMPACT_SPEED, PEAK_FORCE, FLIGHTS, STEPS, EVENTS, SAMPLED, ARRIVED = range(10)
+RESULTS = 10
+
+TURN = 2.0 * math.pi
+BELOW = 2.0  # margins by which a corner may be below the plate in flight
+MAX_SEARCH = 1_000_000  # steps of a search for an impact, see solver.flight
+# Steps and events in one excitation cycle, on average, after which a run has failed.
+MAX_STEPS, MAX_EVENTS = 1_000_000, 10_000
+LONGEST = 0.05  # of an excitation cycle: a longer step might miss an event
+# On a track, a motion that after a block of cycles differs by this many tolerances from itself repeats itself.
+CYCLES, SAME = 12, 100.0
+SAFETY, LEAST, MOST = 0.9, 0.2, 5.0  # of the change of a step's length
+SHORTEST = 1e-15  # of an excitation cycle: a step that needs to be shorter has failed
+
+
+@compiled
+def fly(state, gravity, downhill, tau, after):
+    """Fill the state `after` a flight of `tau` (s)."""
+    after[X] = state[X] + (state[VX] - 0.5 * downhill * tau) * tau
+    after[Z] = state[Z] + (state[VZ] - 0.5 * gravity * tau) * tau
+    after[VX], after[VZ] = state[VX] - downhill * tau, state[VZ] - gravity * tau
+    after[ANGLE], after[SPIN] = state[ANGLE] + state[SPIN] * tau, state[SPIN]
+
+
+@compiled
+def next_impact(c, body, theta, state, limit, after, now):
+    """Duration (s) of a flight from a phase (rad) up to the impact of a corner, at most `limit`; NaN if it is lost.
+
+    Fills the state `after` it, and `now` there.
+    """
+    reach, margin = math.hypot(body.half_length, body.half_height), margins_of(c).gap
+    bound = c.gravity + c.bounds.lift + reach * state[SPIN] * state[SPIN]
+    tau = 0.0
+    for _ in range(MAX_SEARCH):
+        fly(state, c.gravity, c.downhill, tau, after)
+        # The whole block lies within its reach around the centre.
+        clear = after[Z] - reach - c.bounds.height
+        advance = time_of_fall(after[VZ], clear, c.gravity) if clear > margin else 0.0
+        if clear <= margin or tau == limit:
+            locate(c, body, theta + c.omega * tau, after, now)
+            if tau == limit:
+                return tau
+            advance = math.inf
+            for i in range(CORNERS):
+                gap, rate = now[GAP, i], now[RATE, i]
+                if gap <= 0.0 and rate < 0.0:
+                    return tau
+                if gap < -BELOW * margin:
+                    return math.nan
+                # Down to below the plate, so that no step is of no length.
+                advance = min(advance, time_of_fall(rate, gap + BELOW * margin, bound))
+        tau = min(tau + advance, limit)
+    return math.nan
+
+
+@compiled
+def touch(now, margin):
+    """Close the contacts of all corners that are at the plate and approach it, open those that leave it.
+
+    Returns whether a corner is in contact, and the largest speed of approach of a new contact (m/s).
+    """
+    touching, speed = False, 0.0
+    for i in range(CORNERS):
+        if now[MODE, i] == FREE and now[GAP, i] <= margin and now[RATE, i] < 0.0:
+            now[MODE, i], now[PULLED, i] = FORWARD, 0.0
+            speed = max(speed, -now[RATE, i])
+        elif now[MODE, i] != FREE and now[GAP, i] >= (-margin if now[RATE, i] > 0.0 else margin):
+            now[MODE, i] = FREE
+        touching = touching or now[MODE, i] != FREE
+    return touching, speed
+
+
+@compiled
+def keep_sticking(now, state):
+    """Remove the error of a step in the slip velocity of corners that stick."""
+    total, count = 0.0, 0
+    for i in range(CORNERS):
+        if now[MODE, i] == STICK:
+            total += now[SLIP, i]
+            count += 1
+    if count > 0:
+        state[VX] += total / count
+
+
+@compiled
+def repeats(c, body, before, between):
+    """Whether two states, one block of cycles apart, are the same motion."""
+    speed, depth = SAME * c.tolerance * c.scale_v, SAME * c.tolerance * c.scale_w * c.scale_w
+    reach = math.hypot(body.half_length, body.half_height)
+    linear = abs(between[VX] - before[VX]) <= speed and abs(between[VZ] - before[VZ]) <= speed
+    turning = (
+        abs(between[ANGLE] - before[ANGLE]) * reach <= depth and abs(between[SPIN] - before[SPIN]) * reach <= speed
+    )
+    return linear and turning and abs(between[Z] - before[Z]) <= depth
+
+
+@compiled
+def follow(parameters, bodies, tilts, tolerance, times, since, samples, distances, arrivals, results, workspace):
+    """Follow blocks until the last of their times, or until they are at the last distance.
+
+    Parameters
+    ----------
+    parameters : float64, shape (n, 16), see parameters.PARAMETERS; z0 is the height of the centre above that at rest
+    bodies, tilts : length and height (m), moment of inertia per mass (m²), shape (n, 3); initial angles (rad)
+    tolerance : relative error per step of the contact
+    times, since : s, ascending, shape (n, k); s from which statistics count, shape (n,)
+    samples : shape (n, k, 6), filled with the columns SAMPLES at the times; with distances, at the last time only
+    distances, arrivals : m, ascending, shape (d,); filled with the times (s) at which a centre is first there, (n, d)
+    results : zeros of the shape (n, 10), filled with the columns above
+    workspace : arrays to work in, of the shapes (4, 6), (7, 6) and (12, 4); the caller holds them
+    """
+    parameters, bodies, times, samples, distances, arrivals, results = no_refcount(
+        (parameters, bodies, times, samples, distances, arrivals, results)
+    )
+    (states, stages, now) = no_refcount(workspace)
+    # `before` is the state one block of cycles ago.
+    state, after, between, before = no_refcount((states[0], states[1], states[2], states[3]))
+    for i in range(len(parameters)):
+        c = contact.constants(parameters[i], tolerance)
+        body = Body(0.5 * bodies[i, 0], 0.5 * bodies[i, 1], bodies[i, 2])
+        margins = margins_of(c)
+        end, cycles = times[i, -1], 1.0 + times[i, -1] * c.omega / TURN
+        result = results[i]
+        theta, t = c.psi0 % TURN, 0.0
+        z0 = parameters[i, Z0]
+        if math.isnan(z0):
+            z0 = plate.height(c, *plate.sine_and_cosine(theta))
+        state[X], state[Z], state[ANGLE] = 0.0, z0 + body.half_height, tilts[i]
+        state[VX], state[VZ], state[SPIN] = 0.0, parameters[i, VZ0], 0.0
+        result[TILT] = abs(tilts[i])
+        now[:] = 0.0
+        locate(c, body, theta, state, now)
+        touching = False
+        for k in range(CORNERS):
+            if now[GAP, k] <= 0.0:
+                now[MODE, k], touching = FORWARD, True
+        push(c, now)
+        for k in range(CORNERS):
+            now[PULLED, k] = 1.0 if now[WHOLE, k] < 0.0 else 0.0
+        if touching:
+            choose_modes(c, body, theta, state, now, -1)
+        # On a track: the length of a block of cycles, and the time at which it ends; the furthest position; the time
+        # without contact before the block.
+        before[:] = math.inf
+        block, furthest, airtime = CYCLES * TURN / c.omega, 0.0, 0.0
+        due = block if len(distances) > 0 else math.inf
+        length, known = 0.01 * LONGEST * TURN / c.omega, False
+        code = OK
+        while True:
+            kind = TOUCH
+            if not touching:
+                result[FLIGHTS] += 1.0
+                lapse = next_impact(c, body, theta, state, end - t, after, now)
+                if math.isnan(lapse):
+                    code = IMPACT_LOST
+                    break
+                result[AIRTIME] += max(min(t + lapse - since[i], lapse), 0.0)
+                result[TILT] = max(result[TILT], abs(after[ANGLE]))
+                flying = True
+            else:
+                flying = False
+                if not known:
+                    derive(c, body, theta, state, now, stages[0])
+                lapse = min(length, LONGEST * TURN / c.omega, end - t)
+                error = take_step(c, body, theta, state, lapse, stages, after, now)
+                result[STEPS] += 1.0
+                if not error <= 1.0:
+                    # Also for an error that is not finite.
+                    shrink = max(SAFETY * error**-0.2, LEAST) if math.isfinite(error) else LEAST
+                    length, known = lapse * shrink, True
+                    if length * c.omega < SHORTEST * TURN or result[STEPS] > cycles * MAX_STEPS:
+                        code = TOO_STIFF
+                        break
+                    continue
+                # A step that an event or the end cuts short says little of the next one.
+                longer = lapse * min(SAFETY * max(error, 1e-10) ** -0.2, MOST)
+                length = longer if lapse >= length else max(longer, length)
+                share, kind, corner = first_event(c, body, theta, state, lapse, stages, after, now, between)
+                if kind <= PULL:
+                    lapse *= share
+                    take_step(c, body, theta, state, lapse, stages, after, now)
+                else:
+                    derive(c, body, theta + c.omega * lapse, after, now, stages[STAGES - 1])
+                turn = state[SPIN] * after[SPIN]
+                if turn < 0.0:
+                    # The rotation reverses: the spin is nearly linear in a step.
+                    top = state[ANGLE] + 0.5 * lapse * state[SPIN] * state[SPIN] / (state[SPIN] - after[SPIN])
+                    result[TILT] = max(result[TILT], abs(top))
+                result[TILT] = max(result[TILT], abs(after[ANGLE]))
+            # Samples and arrivals in this piece; at the end of the run, all that is left.
+            while result[SAMPLED] < times.shape[1]:
+                moment = times[i, int(result[SAMPLED])]
+                if moment > t + lapse and t + lapse < end:
+                    break
+                if flying:
+                    fly(state, c.gravity, c.downhill, moment - t, between)
+                else:
+                    share = min((moment - t) / lapse, 1.0) if lapse > 0.0 else 1.0
+                    interpolate(state, lapse, stages, after, share, between)
+                for k in range(STATE):
+                    samples[i, int(result[SAMPLED]), k] = between[k]
+                result[SAMPLED] += 1.0
+            furthest, skipped = max(furthest, after[X]), 0.0
+            if t + lapse > due:
+                if flying:
+                    fly(state, c.gravity, c.downhill, due - t, between)
+                else:
+                    interpolate(state, lapse, stages, after, (due - t) / lapse, between)
+                advance = between[X] - before[X]
+                if repeats(c, body, before, between):
+                    # Blocks are left out up to one before the end or the next distance.
+                    blocks = (end - due) / block - 1.0
+                    if advance > 0.0:
+                        blocks = min(blocks, (distances[int(result[ARRIVED])] - furthest) / advance - 1.0)
+                    skipped = max(math.floor(blocks), 0.0)
+                    result[AIRTIME] += skipped * (result[AIRTIME] - airtime)
+                    t += skipped * block
+                    furthest += skipped * advance
+                    state[X] += skipped * advance
+                    after[X] += skipped * advance
+                    between[X] += skipped * advance
+                for k in range(STATE):
+                    before[k] = between[k]
+                airtime, due = result[AIRTIME], due + (skipped + 1.0) * block
+            while result[ARRIVED] < len(distances) and after[X] >= distances[int(result[ARRIVED])]:
+                share = (distances[int(result[ARRIVED])] - state[X]) / (after[X] - state[X])
+                arrivals[i, int(result[ARRIVED])] = t + share * lapse
+                result[ARRIVED] += 1.0
+            t = end if lapse >= end - t else t + lapse
+            theta = (theta + c.omega * lapse) % TURN
+            finite = True
+            for k in range(STATE):
+                state[k] = after[k]
+                finite = finite and math.isfinite(after[k])
+            if not finite:
+                code = NOT_FINITE
+                break
+            if t >= end or (len(distances) > 0 and result[ARRIVED] == len(distances)):
+                break
+            # What follows the piece.
+            if not flying:
+                force = 0.0
+                for k in range(CORNERS):
+                    force += now[FORCE, k]
+                if t >= since[i]:
+                    result[PEAK_FORCE] = max(result[PEAK_FORCE], force)
+                keep_sticking(now, state)
+                for k in range(STATE):
+                    stages[0, k] = stages[STAGES - 1, k]
+                known = kind > PULL
+                if known:
+                    continue
+                result[EVENTS] += 1.0
+                if result[EVENTS] > cycles * MAX_EVENTS:
+                    code = TOO_MANY_EVENTS
+                    break
+            slips = -1
+            if flying or kind == TOUCH:
+                locate(c, body, theta, state, now)
+                touching, speed = touch(now, margins.gap)
+                if t >= since[i]:
+                    result[IMPACT_SPEED] = max(result[IMPACT_SPEED], speed)
+            elif kind == PULL:
+                now[PULLED, corner] = 1.0 - now[PULLED, corner]
+            elif now[MODE, corner] == STICK:
+                slips = corner
+            else:
+                state[VX] += now[SLIP, corner]  # which is zero but for the margin
+            known = False
+            if touching:
+                choose_modes(c, body, theta, state, now, slips)
+        result[CODE] = code
+        samples[i, int(result[SAMPLED]) :] = math.nan
+        arrivals[i, int(result[ARRIVED]) :] = math.nan
