@@ -24,6 +24,7 @@ rule plot:
         "../../scripts/conveyor_pipeline/draw.py"
 
 
+# On a cluster, a job of its own would wait longer than it runs.
 rule caption:
     """The caption of a figure."""
     input:
@@ -44,6 +45,7 @@ rule caption:
         benchmark_file("figures/caption_{figure}")
     wildcard_constraints:
         figure=one_of([*FIGURES, *NO_FIGURES]),
+    localrule: True
     params:
         **stage("conveyor_pipeline.figures.captions", scripts=caption_scripts),
         settings=lambda wildcards: settings_of_figure(wildcards.figure),

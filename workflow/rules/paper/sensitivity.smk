@@ -36,6 +36,7 @@ rule curves:
 
 
 rule frictions:
+    """Velocities over the friction."""
     output:
         **tables_of("sensitivity/frictions"),
     log:
@@ -45,7 +46,5 @@ rule frictions:
     threads: THREADS
     params:
         **stage("conveyor_pipeline.paper.sensitivity.frictions", "sensitivity/frictions"),
-    message:
-        "Velocities over the friction"
     script:
         "../../../scripts/conveyor_pipeline/make.py"
