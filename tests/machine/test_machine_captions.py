@@ -27,8 +27,8 @@ def test_the_operating_chart_says_how_many_amplitudes_a_limit_leaves_open():
     shares = pd.DataFrame(rows)
     shares.attrs = {"starts": 4, "resolution": 0.2, "height": [0.0, 1e-3], "vz0": [-0.2, 0.2]}
     shares.attrs["psi0"] = [0.0, 6.28]
-    regimes = pd.DataFrame()
-    for name, tables in (("basin_stability", {}), ("operating", {"regimes": regimes})):
+    none = pd.DataFrame()
+    for name, tables in (("basin_stability", {}), ("operating", {"regimes": none, "advice": none})):
         text = caption(name, shares=shares, **tables)
         assert "At 2 of 3 amplitudes, the search for a state or a mean velocity ended before it was known." in text
         assert "``solver.settling``" in text
@@ -62,7 +62,7 @@ def test_the_largest_share_of_parts_that_move_back_is_named_although_runs_failed
     table = pd.DataFrame({"acceleration": [30.0, 60.0, 70.0], "population": "varied", "back": [0.0, 0.2, np.nan]})
     table.attrs = {"spread": {}, "starts": 64, "length": 0.5, "longest": 20.0}
     lengths = pd.DataFrame({"regime": [], "acceleration": [], "spread": [], "predicted": []})
-    tables = {"lengths": lengths, "drift": pd.DataFrame({"status": []})}
+    tables = {"lengths": lengths, "drift": pd.DataFrame({"status": []}), "advice": pd.DataFrame()}
     assert "Some parts move back: at most 20 %, of varied parts at 60 m/s²." in caption(
         "transit", transit=table, **tables
     )

@@ -31,7 +31,7 @@ WRONG = [
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
     ({"drive": {"velocity": "2 cm/s"}}, "drive.velocity = '2 cm/s' should be a valid number (m/s)"),
-    ({"transit": {"acceleration": {"num": 1}}}, "has num: 1 for two ends; give more values, or a list such as [20.0]"),
+    ({"transit": {"acceleration": {"num": 1}}}, "has num: 1 for two ends; give more values, or a list such as [19.0]"),
 ]
 
 

@@ -3,9 +3,10 @@
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.figure import Figure
 
 from conveyor_pipeline.figures import style
-from conveyor_pipeline.machine.figures import calibration, drive, transit
+from conveyor_pipeline.machine.figures import calibration, drive, operating, transit
 
 
 def bands(amplitudes: list[float], **spread: float) -> pd.DataFrame:
@@ -66,3 +67,13 @@ def test_a_calibration_that_has_not_converged_shows_the_measured_velocities_alon
     (axes,) = figure.axes
     assert "not converged" in axes.get_title() and axes.get_ylabel().endswith("in cm/s")
     assert axes.yaxis.get_major_formatter()(0.05) == "5"
+
+
+def test_advised_amplitudes_are_marked_with_their_aims():
+    """One line with two words if both amplitudes are equal; else two labels, the second one a line lower."""
+    for amplitudes, labels in (([40.0, 40.0], ["fast and even"]), ([80.0, 40.0], ["fast", "\neven"])):
+        axes = Figure().subplots()
+        axes.set_xlim(20.0, 90.0)
+        operating.mark_advice(axes, pd.DataFrame({"aim": ["fast", "even"], "acceleration": amplitudes}))
+        assert [text.get_text() for text in axes.texts] == labels
+        assert [line.get_xdata()[0] for line in axes.lines] == amplitudes[: len(labels)]

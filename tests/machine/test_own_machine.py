@@ -9,6 +9,7 @@ from project import ROOT, Project, copy_project
 from conveyor import throw_number
 from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.files import DEFAULT_FILES
+from conveyor_pipeline.machine.operating.settings import key_of_amplitudes, transit_axis
 
 
 def load(overlay: dict) -> dict:
@@ -24,11 +25,11 @@ def planned(overlay: dict, tmp_path, *targets: str):
 
 
 def test_dimensionless_settings_fit_the_papers_conveyor():
-    """The default axes are the axes of the paper's figures."""
+    """On the paper's conveyor, all amplitudes are whole numbers."""
     config = load({})
-    assert config["operating"]["acceleration"] == {"start": 20.0, "stop": 90.0, "num": 141}
+    assert config["operating"]["acceleration"] == {"start": 19.0, "stop": 155.0, "num": 137}
     assert [config["operating"][key] for key in ("resolution", "height", "vz0")] == [0.2, [0.0, 0.5e-3], [-0.2, 0.2]]
-    assert config["transit"]["acceleration"] == {"start": 20.0, "stop": 90.0, "num": 71}
+    assert transit_axis(config) == config["operating"]["acceleration"]
     assert (config["clean_drive"]["riding"], config["clean_drive"]["chaos"]) == ([32.0, 44.0], [80.0, 90.0])
     assert config["drive"]["bounds"]["acceleration"] == [10.0, 80.0]
     assert config["drive"]["bounds"]["frequency"] == [40.0, 60.0]
@@ -39,7 +40,7 @@ def test_dimensionless_settings_fit_the_papers_conveyor():
 def test_dimensionless_settings_follow_the_conveyor_and_limits_in_si_units_do_not():
     """Twice the frequency under four times the gravity: heights stay, velocities double, times halve."""
     own, paper = load({"prefix": "mine", "model": {"frequency": 100.0, "gravity": 39.24}}), load({})
-    assert own["operating"]["acceleration"] == {"start": 80.0, "stop": 360.0, "num": 141}
+    assert own["operating"]["acceleration"] == {"start": 76.0, "stop": 620.0, "num": 137}
     assert (own["operating"]["height"], own["operating"]["vz0"]) == ([0.0, 0.5e-3], [-0.4, 0.4])
     assert (own["drive"]["bounds"]["frequency"], own["drive"]["search"]["longest"]) == ([80.0, 120.0], 1.0)
     assert own["advice"]["changes"]["frequency"] == 2.0
@@ -53,17 +54,17 @@ def test_amplitudes_are_throw_numbers(model):
     config = load({"prefix": "mine", "model": model})
     ends = [config["operating"]["acceleration"][end] for end in ("start", "stop")]
     shape = {key: config["model"][key] for key in ("angle", "gravity", "inclination")}
-    assert throw_number(ends, **shape).tolist() == pytest.approx([0.4239, 1.9074], rel=1e-3)
+    assert throw_number(ends, **shape).tolist() == pytest.approx([0.4027, 3.2851], rel=1e-3)
 
 
 @pytest.mark.parametrize(
     ("given", "expected"),
     [
         ({"acceleration": [30.0, 35.0]}, [30.0, 35.0]),
-        ({"acceleration": {"num": 15}}, {"start": 20.0, "stop": 90.0, "num": 15}),
+        ({"acceleration": {"num": 15}}, {"start": 19.0, "stop": 155.0, "num": 15}),
         (
             {"acceleration": {"start": 30.0}, "dimensionless": {"acceleration": {"num": 15}}},
-            {"start": 30.0, "stop": 90.0, "num": 15},
+            {"start": 30.0, "stop": 155.0, "num": 15},
         ),
         ({"dimensionless": {"acceleration": [0.4239, 1.9074]}}, [20.0, 90.0]),
     ],
@@ -79,18 +80,41 @@ def test_values_in_si_units_replace_dimensionless_ones(given, expected):
             {"operating": {"height": [0.0, 1.0e-3], "dimensionless": {"height": [0.0, 1.0]}}},
             "operating.height is given in SI",
         ),
-        (
-            {"transit": {"acceleration": {"num": 3}, "dimensionless": {"acceleration": [1.0]}}},
-            "transit.acceleration is given",
-        ),
-        ({"operating": {"acceleration": {"start": 100.0}}}, "is reversed: start is above stop"),
-        ({"operating": {"dimensionless": {"acceleration": {"start": 2.0}}}}, "is reversed: start is above stop"),
+        ({"transit": {"dimensionless": {"acceleration": [1.0]}}}, "transit.dimensionless is an unknown key"),
+        ({"operating": {"acceleration": {"start": 200.0}}}, "is reversed: start is above stop"),
+        ({"operating": {"dimensionless": {"acceleration": {"start": 4.0}}}}, "is reversed: start is above stop"),
         ({"model": {"angle": 0.0}}, "model.angle = 0.0 means that no amplitude can lift a part"),
     ],
 )
 def test_dimensionless_values_that_cannot_be_used_are_refused(overlay, told):
     with pytest.raises(ConfigError, match=re.escape(told)):
         load({"prefix": "mine", **overlay})
+
+
+@pytest.mark.parametrize(
+    ("operating", "transit", "expected"),
+    [
+        ([30.0, 40.0], {}, [30.0, 40.0]),
+        ([30.0, 40.0], {"acceleration": [50.0]}, [50.0]),
+        ({"start": 30.0}, {"acceleration": {"num": 5}}, {"start": 30.0, "stop": 155.0, "num": 5}),
+    ],
+)
+def test_transit_has_the_amplitudes_of_the_shares_unless_it_gives_its_own(operating, transit, expected):
+    config = load({"prefix": "mine", "operating": {"acceleration": operating}, "transit": transit})
+    assert transit_axis(config) == expected
+    assert key_of_amplitudes(config) == f"{'transit' if transit else 'operating'}.acceleration"
+
+
+@pytest.mark.parametrize(
+    ("operating", "transit", "told"),
+    [
+        ([30.0, 40.0], {"num": 5}, "transit.acceleration lacks start, stop, and operating.acceleration is a list"),
+        ({"stop": 40.0}, {"start": 50.0}, "transit.acceleration, with what operating.acceleration adds, is reversed"),
+    ],
+)
+def test_amplitudes_of_transit_that_do_not_fit_those_of_the_shares_are_refused(operating, transit, told):
+    with pytest.raises(ConfigError, match=re.escape(told)):
+        load({"prefix": "mine", "operating": {"acceleration": operating}, "transit": {"acceleration": transit}})
 
 
 def test_the_default_target_of_another_conveyor_is_its_machine(tmp_path):

@@ -4,15 +4,36 @@ from collections.abc import Iterator
 
 from conveyor import RANGES
 from conveyor_pipeline.common import csv_table
+from conveyor_pipeline.common.settings import check_span
 from conveyor_pipeline.config.checks import LARGEST_TABLE
 from conveyor_pipeline.config.entries import count_values
 from conveyor_pipeline.machine.calibration import measurements
 from conveyor_pipeline.machine.excitation.limits import STATEMENT
+from conveyor_pipeline.machine.operating.settings import transit_axis
+
+
+def transit_amplitudes(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """Faults of an axis that takes some of its keys from operating.acceleration."""
+    axis = transit_axis(config)
+    if not isinstance(axis, dict):
+        return
+    if missing := [key for key in ("start", "stop", "num") if key not in axis]:
+        remedy = "give start, stop and num, or remove transit.acceleration, so that operating.acceleration counts"
+        yield f"transit.acceleration lacks {', '.join(missing)}, and operating.acceleration is a list; {remedy}"
+        return
+    try:
+        check_span(axis)
+    except ValueError as error:
+        yield f"transit.acceleration, with what operating.acceleration adds, {error}"
 
 
 def numbers_of_runs(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    axes = {"operating": config["operating"]["acceleration"], "transit": transit_axis(config)}
     for section, number in (("operating", "starts"), ("transit", "parts")):
-        runs = count_values(config[section]["acceleration"]) * config[section][number]
+        axis = axes[section]
+        if isinstance(axis, dict) and "num" not in axis:  # see transit_amplitudes
+            continue
+        runs = count_values(axis) * config[section][number]
         if runs > LARGEST_TABLE:
             yield f"{section}.{number} makes {runs:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
 
@@ -76,4 +97,4 @@ def excitation(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         yield from error.faults
 
 
-CHECKS = (numbers_of_runs, durations, calibration, excitation)
+CHECKS = (transit_amplitudes, numbers_of_runs, durations, calibration, excitation)

@@ -184,6 +184,17 @@ def test_the_page_lists_the_recommended_settings(made):
     assert "fewer than 12 % of all parts do" in page
 
 
+def test_the_first_line_names_bounds_and_limits_at_which_the_search_ended():
+    bounds, inside = SETTINGS["bounds"], {"checked_impact_speed": 0.1, "displacement": 1e-4}
+    middle = {name: sum(bounds[name]) / 2.0 for name in drive.SEARCHED} | inside
+    assert drive_page.ends_reached(middle, SETTINGS) == []
+    low, high = bounds["acceleration"]
+    at_ends = middle | {"acceleration": high - 0.01 * (high - low), "angle": bounds["angle"][0]}
+    at_ends |= {"displacement": 0.99 * SETTINGS["displacement"]}
+    named = ["the upper bound of `drive.bounds.acceleration`", "the lower bound of `drive.bounds.angle`"]
+    assert drive_page.ends_reached(at_ends, SETTINGS) == [*named, "`drive.displacement`"]
+
+
 def test_the_page_names_the_harmonics_of_the_plate(made):
     front = made["drive_front"].copy()
     assert "The plate's motion has" not in drive_page.make(TEMPLATE, front, growing(1.0, 1.0))

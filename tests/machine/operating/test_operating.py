@@ -1,6 +1,7 @@
 """Shares of initial conditions: the box, its motions and their velocities, and the chart in words."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -313,20 +314,12 @@ def test_numbers_in_words(ends, words):
     assert format_range(ends) == words
 
 
-def test_chaos_begins_at_its_lowest_amplitude():
-    """Also if motion is regular at a higher amplitude."""
-    found = pd.DataFrame(
-        {
-            "regime": [regimes.ONE, regimes.BESIDE, regimes.ONE, regimes.CHAOS],
-            "states": ["first", "chaos, first", "second", "chaos"],
-            "begin": [20.0, 30.0, 40.0, 50.0],
-            "end": [29.0, 39.0, 49.0, 60.0],
-        }
-    )
-    parts = chart.summarize_regimes(found, found)
-    assert [row["begin"] for row in parts["chaos"]] == [30.0]
-    assert [(row["begin"], row["end"]) for row in parts["only_chaos"]] == [(50.0, 60.0)]
-    assert parts["unknown"] == []
+def test_chaos_begins_at_its_lowest_amplitude(refined):
+    """Also if motion is regular at a higher amplitude, or the interval is narrow."""
+    found = intervals_of(refined)
+    assert chart.summarize_regimes(found, refined)["chaos_from"] == refined[refined.state == "chaos"].acceleration.min()
+    regular = refined[refined.state != "chaos"]
+    assert chart.summarize_regimes(found, regular)["chaos_from"] is None
 
 
 def measures(**changed: float) -> dict[str, float]:
@@ -342,8 +335,8 @@ def advised(**worst: float) -> list[pd.DataFrame]:
     rows.attrs = {"length": 0.5, "longest": 20.0, "starts": 256, "spread": {"friction": 0.15, "mass": 0.0, "seed": 1}}
     rows.attrs["model"] = {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0, "frequency": 50.0}
     common = {"throw_number": 0.66, "velocity_worst": 0.01, "spread_worst": 1.1, "back_worst": 0.0} | worst
-    fast = measures(aim="fast", acceleration=31.0, states="first 90 %, second 10 %", states_acceleration=31.1, **common)
-    even = measures(aim="even", acceleration=58.0, states="chaos 100 %", states_acceleration=55.0, **common) | {
+    fast = measures(aim="fast", acceleration=31.0, states="first 100 %", states_acceleration=31.25, **common)
+    even = measures(aim="even", acceleration=58.0, states="chaos 100 %", states_acceleration=60.0, **common) | {
         "spread": 0.2,
         "back": 0.01,
     }
@@ -361,7 +354,8 @@ def advised(**worst: float) -> list[pd.DataFrame]:
 
 def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame], assumed: tuple[str, ...] = ()) -> str:
     rows, advice_rows, changes = tables
-    return chart.make(TEMPLATE, rows, shares_table, intervals_of(shares_table), advice_rows, changes, assumed)
+    found = intervals_of(shares_table)
+    return chart.make(TEMPLATE, rows, shares_table, found, advice_rows, changes, assumed, "operating.acceleration")
 
 
 def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
@@ -385,14 +379,20 @@ def test_no_amplitude_is_recommended_where_parts_move_back(refined):
 
 def test_the_page_begins_with_the_advice(refined):
     page = page_of(refined, advised())
-    assert page.startswith("# Operating chart\n\n## Where to run the conveyor\n\n**Fast for nearly all parts.**")
-    assert "- **Amplitude 31 m/s²** (peak acceleration along the direction of vibration), throw number" in page
+    first, second = "31 m/s² (Γ = 0.66, 0.628 mm peak to peak)", "58 m/s² (Γ = 0.66, 1.18 mm peak to peak)"
+    assert page.startswith(f"# Operating chart\n\n**Run at {first} to be fast, or at {second} to feed evenly.**")
+    assert (
+        "- **Amplitude 31 m/s²** (peak acceleration along the direction of vibration), throw number Γ = 0.66, 0."
+        in page
+    )
     assert "- **Velocity 3 cm/s** (median); 90 % of the parts have 2 to 5 cm/s (relative spread 1 ± 0); with" in page
     assert "- Up to 90 parts of 20 mm per minute at this velocity, one behind the other\n" in page
     assert "- Late: 12.5 % of the parts need more than 20 s for 0.5 m. None has moved back\n" in page
-    assert "- Impact speed up to 0.1 m/s, contact force up to 0.5 N (50 times the weight of the part)" in page
-    assert "- State of motion: first 90 %, second 10 % of the initial conditions\n" in page
-    assert "- State of motion at 55 m/s², the nearest amplitude at which it was examined: chaos 100 % of" in page
+    assert "- Impact speed up to 10 cm/s, contact force up to 0.5 N (50 times the weight of the part)" in page
+    assert "- Motion: riding (100 %) of the initial conditions; in the table below: one velocity\n" in page
+    assert "- Motion at 60 m/s², the nearest amplitude at which it was examined: chaos (100 %) of the initial" in page
+    assert "; in the table below: chaos only\n" in page
+    assert "m/s" not in re.sub("cm/s|m/s²", "", page)
     assert "  - friction of 0.17 (now 0.15): velocity +20 ± 4 %, spread -0.4 ± 1.0 %\n" in page
     assert "  - angle of 13.8° (now 12°): velocity +10 ± 4 %\n" in page
     assert page.index("**Even.**") < page.index("- **Amplitude 58 m/s²**") < page.index("## What the conveyor does")
@@ -478,16 +478,26 @@ def test_the_page_says_that_fast_parts_slide_away(refined):
     assert "too steep" not in page_of(refined, advised())
 
 
-def test_the_page_says_that_the_range_ends_and_that_parts_do_not_arrive(refined):
+def test_the_first_line_says_that_the_range_ends(refined):
     """The made-up table has the two recommended amplitudes only."""
     tables = advised()
-    page = page_of(refined, tables)
-    assert page.count("The range of amplitudes ends here") == 2 and "do not arrive" not in page
-    beyond = pd.concat([tables[0], tables[0].assign(acceleration=[20.0, 90.0])])
+    first = page_of(refined, tables).splitlines()[2]
+    low = "The fast amplitude is the smallest one that was examined, so that a smaller one may be better: lower"
+    high = "The even amplitude is the largest one that was examined, so that a larger one may be better: raise"
+    assert (
+        f"**{low} `operating.acceleration.start`.**" in first and f"**{high} `operating.acceleration.stop`.**" in first
+    )
+    wide = pd.concat([tables[0], tables[0].assign(acceleration=[20.0, 90.0])])
+    wide.attrs = tables[0].attrs
+    assert "was examined" not in page_of(refined, [wide, *tables[1:]]).splitlines()[2]
+
+
+def test_the_page_says_that_parts_do_not_arrive(refined):
+    tables = advised()
+    assert "do not arrive" not in page_of(refined, tables)
     late = tables[1].assign(late=0.9)
-    beyond.attrs, late.attrs = tables[0].attrs, tables[1].attrs
-    page = page_of(refined, [beyond, late, tables[2]])
-    assert "The range of amplitudes ends here" not in page
+    late.attrs = tables[1].attrs
+    page = page_of(refined, [tables[0], late, tables[2]])
     assert "Most parts do not arrive in this time: raise `transit.longest`" in page
 
 
@@ -608,63 +618,66 @@ def interval_rows(*rows: tuple[str, float, float]) -> pd.DataFrame:
     return table.assign(number=np.arange(len(rows)), states=table.regime, **common)
 
 
-def test_narrow_intervals_are_merged_into_their_wider_neighbour():
-    """The narrow interval of chaos between two with one velocity goes; the interval at 60 m/s² joins the wider side."""
+def test_neighbouring_narrow_intervals_are_one():
+    """The narrow interval at 30 m/s² has wide neighbours and stays; those from 60 m/s² on are one."""
     table = interval_rows(
-        *((regimes.ONE, 20.0, 29.9), (regimes.CHAOS, 30.0, 30.05), (regimes.ONE, 30.1, 40.0)),
-        *((regimes.SEVERAL, 40.1, 59.9), (regimes.BESIDE, 60.0, 60.1), (regimes.CHAOS, 60.2, 61.5)),
+        *((regimes.ONE, 20.0, 29.9), (regimes.CHAOS, 30.0, 30.05), (regimes.ONE, 30.1, 59.9)),
+        *((regimes.BESIDE, 60.0, 60.1), (regimes.CHAOS, 60.2, 60.3), (regimes.BESIDE, 60.4, 60.5)),
+        (regimes.CHAOS, 60.6, 70.0),
     )
-    table.loc[1, "velocity_low"] = 0.05
-    found = regimes.merge_narrow(table, 0.01)
-    assert found.regime.tolist() == [regimes.ONE, regimes.SEVERAL, regimes.CHAOS]
-    assert found.begin.tolist() == [20.0, 40.1, 60.2]
-    assert found.end.tolist() == [40.0, 60.1, 61.5]
-    assert found.velocity_low.tolist() == [0.05, 0.1, 0.1]
-    assert found.amplitudes.tolist() == [6, 4, 2]
-    assert found.states.tolist() == [
-        f"{regimes.ONE}, {regimes.CHAOS}",
-        f"{regimes.SEVERAL}, {regimes.BESIDE}",
-        regimes.CHAOS,
-    ]
-    pd.testing.assert_frame_equal(regimes.merge_narrow(table, 1e-6), table)
-    assert len(regimes.merge_narrow(table, 0.9)) == 1
+    table.loc[4, "velocity_low"] = 0.05
+    found = regimes.group_narrow(table, 0.01)
+    assert found.regime.tolist() == [regimes.ONE, regimes.CHAOS, regimes.ONE, regimes.CHANGING, regimes.CHAOS]
+    assert found.regimes.tolist()[3] == [regimes.BESIDE, regimes.CHAOS]
+    assert (found.begin[3], found.end[3], found.amplitudes[3], found.velocity_low[3]) == (60.0, 60.5, 6, 0.05)
+    assert found.states[3] == f"{regimes.BESIDE}, {regimes.CHAOS}"
+    pd.testing.assert_frame_equal(regimes.group_narrow(table, 1e-6).drop(columns="regimes"), table)
+    assert len(regimes.group_narrow(table, 0.9)) == 1
 
 
-def test_an_unknown_interval_is_no_part_of_its_neighbour():
-    for rows in (
-        ((regimes.ONE, 20.0, 30.0), (regimes.UNKNOWN, 30.1, 30.1), (regimes.CHAOS, 30.2, 40.0)),
-        ((regimes.ONE, 20.0, 40.0), (regimes.UNKNOWN, 40.2, 40.2), (regimes.SEVERAL, 40.4, 40.6)),
-        ((regimes.UNKNOWN, 20.0, 20.0), (regimes.ONE, 20.2, 20.2)),
-    ):
-        found = regimes.merge_narrow(interval_rows(*rows), 0.01)
-        assert found.regime.tolist() == [regime for regime, _, _ in rows]
+def test_unknown_intervals_are_not_joined():
+    rows = ((regimes.UNKNOWN, 20.0, 20.0), (regimes.ONE, 20.1, 20.1), (regimes.UNKNOWN, 20.2, 20.2))
+    found = regimes.group_narrow(interval_rows(*rows), 0.1)
+    assert found.regime.tolist() == [regime for regime, _, _ in rows]
 
 
-def test_the_page_says_what_merged_intervals_hide(refined):
-    """With a margin of 30 %, the two intervals with chaos count as a part of their neighbour."""
+@pytest.mark.parametrize("margin", [0.001, 0.01, 0.1, 0.3])
+def test_headline_list_and_table_say_the_same_of_each_amplitude(refined, margin):
+    """The regime of each amplitude is that of its row, or one of those that the row changes between."""
+    rows = regimes.group_narrow(intervals_of(refined), margin)
+    page = page_of(refined, with_margin(margin))
+    listed, table = page.split("## What the conveyor does")[1].split("| Amplitude in m/s² |")
+    for amplitude in regimes.summarize_amplitudes(refined).itertuples():
+        row = rows[(rows.begin <= amplitude.acceleration) & (amplitude.acceleration <= rows.end)].iloc[0]
+        assert amplitude.regime in row.regimes
+        assert (row.regime == regimes.CHANGING) == (len(row.regimes) > 1)
+        motion = chart.motion_at(amplitude.acceleration, refined, rows)
+        assert motion["regime"] == row.regime and sum(motion["states"].values()) == pytest.approx(1.0)
+        place = f"{row.begin:.1f} to {row.end:.1f}" if row.begin < row.end else f"{row.begin:.1f}"
+        assert listed.count(place) == 1
+        assert re.search(rf"^\| {place} \|.*\| {row.regime}", table, re.MULTILINE)
+
+
+def with_margin(margin: float) -> list[pd.DataFrame]:
     tables = advised()
-    tables[1].attrs["margin"] = 0.3
-    page = page_of(refined, tables)
-    assert "intervals narrower than 30 % of the amplitude count as a part of a wider neighbour" in page
-    assert "In no interval of the table do all initial conditions end in chaos." in page
-    assert "30 to 34 % of the initial conditions reach it. This share is largest (34.0 ±" in page
-    assert "Chaos begins at 50." in page
-    table = page[page.index("| Amplitude in m/s² |") :]
-    assert "| several velocities | first, second, chaos |" in table
+    tables[1].attrs["margin"] = margin
+    return tables
 
 
-def test_an_interval_with_one_velocity_has_the_velocities_of_its_own_motions():
-    """Not those of a narrow interval of chaos that counts as a part of it."""
-    rows = [(20.0, "first", 0.01), (30.0, "first", 0.02), (30.2, "chaos", 0.06), (30.4, "first", 0.021)]
-    table = pd.DataFrame(rows, columns=["acceleration", "state", "mean_velocity"]).assign(share=1.0, starts=10)
-    found = chart.describe_one_velocity(table, {"begin": 20.0, "end": 30.4})
-    assert (found["states"], found["velocity"]) == (["first"], [0.01, 0.021])
+def test_the_page_names_intervals_in_which_the_motion_changes(refined):
+    """With a margin of 30 %, the three intervals from 31.4 m/s² on are one, in which the motion changes."""
+    page = page_of(refined, with_margin(0.5))
+    assert (
+        "- The motion changes within 50 % of the amplitude, which the drive does not hold: 20.0 to 60.0 m/s²." in page
+    )
+    kinds = "one velocity, several velocities, chaos beside other motions, chaos only"
+    assert f"| changes within the error of the amplitude: {kinds} |" in page
 
 
 def test_the_largest_share_belongs_to_an_amplitude_that_the_page_names(refined):
-    most = chart.summarize_fastest(refined, [{"begin": 20.0, "end": 60.0}])["most"]
+    most = chart.summarize_fastest(refined, [{"begin": 31.4, "end": 50.0}])["most"]
     assert most["acceleration"] >= 40.0 and most["best_share"] == pytest.approx(0.34)
-    most = chart.summarize_fastest(refined, [{"begin": 20.0, "end": 36.0}])["most"]
+    most = chart.summarize_fastest(refined, [{"begin": 31.4, "end": 36.0}])["most"]
     assert most["best_share"] == pytest.approx(0.3)
 
 
@@ -679,11 +692,15 @@ def test_regimes_and_their_words(refined):
     # The amplitudes of the config are 5 m/s² apart; closer ones were added where the answer changes.
     assert list(found.step[:2]) == [5.0, 5.0]
     page = page_of(refined, advised())
-    assert "All initial conditions reach one velocity at 20.0 to 31.2 m/s² (first state, 0.01 m/s)." in page
-    assert "Several velocities exist side by side, without chaos, at 31.4 to 50.0 m/s²" in page
-    assert "\n30 to 34 % of the initial conditions reach it." in page
-    assert "This share is largest (34.0 ± 4.7 %) at 40 m/s², with 0.06 m/s." in page
-    assert "Chaos begins at 50.2 m/s². All initial conditions end in chaos at 56.1 to 60.0 m/s²." in page
+    assert "- One velocity, whatever the initial condition: 20.0 to 31.2 m/s² (riding, 1 cm/s)\n" in page
+    assert (
+        "- Several velocities side by side, without chaos: 31.4 to 50.0 m/s². The fastest motion there has 6 cm/s"
+        in page
+    )
+    assert "30 to 34 % of the initial conditions reach it." in page
+    assert "This share is largest (34.0 ± 4.7 %) at 40 m/s², with 6 cm/s\n" in page
+    assert "- Chaos only: 56.1 to 60.0 m/s²\n" in page
+    assert "The lowest amplitude with chaos is 50.2 m/s²." in page
     assert "from heights of 0 to 0.5 mm above" in page
     assert "at 95 % confidence, fewer than 3 % of all initial conditions in\nthese ranges lead to" in page
     assert "is not known." not in page
@@ -714,11 +731,9 @@ def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     advice_rows.attrs = {"margin": 0.01, "changes": {}}
     page = page_of(alone, [rows, advice_rows, changes.iloc[:0]])
     assert "No part could be followed at any amplitude, so there is no advice." in page
-    assert "At no amplitude are all initial conditions known to reach one velocity" in page
     assert "No initial condition is known to end in chaos." in page
-    assert "At no amplitude are several regular motions of different velocities known to exist side by side" in page
-    assert "At 20.0 m/s², the state or the velocity of a motion is not known." in page
-    assert "| 20.0 | 0.426 | unknown | undecided | not known | not known | not known |" in page
+    assert "- A state or a velocity is not known: 20.0 m/s².\n" in page
+    assert "| 20.0 | 0.426 | 0.405 | unknown | undecided | not known | not known | not known |" in page
 
 
 def test_conveyors_with_equal_groups_have_equal_motions_over_the_throw_number():

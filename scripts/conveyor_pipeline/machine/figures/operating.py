@@ -34,8 +34,20 @@ def draw_regimes(strip: Axes, shares: pd.DataFrame, regimes: pd.DataFrame) -> li
     return [Patch(**look, label=regime) for regime, look in LOOKS.items() if (regimes.regime == regime).any()]
 
 
-def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
-    """Draw shares and regimes of motion."""
+def mark_advice(axes: Axes, advice: pd.DataFrame) -> None:
+    """Draw a line with a label at each advised amplitude, after the limits of the axes are known."""
+    middle = np.mean(axes.get_xlim())
+    for line, (acceleration, aims) in enumerate(advice.groupby("acceleration", sort=False).aim):
+        axes.axvline(acceleration, color="black", linewidth=0.6, linestyle=":")
+        # The label lies on the side with more room, and the second one below the first.
+        side, offset = ("right", -2) if acceleration > middle else ("left", 2)
+        label = "\n" * line + " and ".join(aims)
+        place = {"xycoords": ("data", "axes fraction"), "va": "top", "ha": side}
+        style.note(axes, label, (acceleration, 1.0), (offset, -1), **place)
+
+
+def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame, advice: pd.DataFrame) -> Figure:
+    """Draw shares and regimes of motion, with the advised amplitudes."""
     figure = style.figure(style.PAGE, 108.0)
     strip, velocities, share = figure.subplots(3, 1, sharex=True, height_ratios=(0.35, 3.0, 2.0))
     handles = draw_regimes(strip, shares, regimes)
@@ -62,6 +74,7 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame) -> Figure:
     share.set_ylabel("share of the\nfastest motion in %")
     share.set_xlabel(style.AMPLITUDE)
     style.limit_x(share, amplitudes)
+    mark_advice(velocities, advice)
     if len(amplitudes) == 1:
         style.say(velocities, "a single amplitude; give more for lines")
     figure.align_ylabels([velocities, share])

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from conveyor_pipeline.figures import style
-from conveyor_pipeline.machine.figures.operating import draw_regimes
+from conveyor_pipeline.machine.figures.operating import draw_regimes, mark_advice
 from conveyor_pipeline.machine.operating.parts import IDENTICAL, POPULATIONS, VARIED, differences
 from conveyor_pipeline.machine.operating.regimes import CHAOS
 
@@ -67,8 +67,15 @@ def draw_lengths(axes: Axes, lengths: pd.DataFrame) -> None:
     axes.xaxis.minorticks_off()
 
 
-def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, lengths: pd.DataFrame) -> Figure:
-    """Draw bands of velocities below the regimes, and relative spreads."""
+def plot(
+    *,
+    transit: pd.DataFrame,
+    shares: pd.DataFrame,
+    regimes: pd.DataFrame,
+    lengths: pd.DataFrame,
+    advice: pd.DataFrame,
+) -> Figure:
+    """Draw bands of velocities below the regimes, and relative spreads, with the advised amplitudes."""
     figure = style.figure(style.PAGE, 118.0)
     above, below = figure.subfigures(2, 1, height_ratios=(1.5, 1.0))
     strip, bands = above.subplots(2, 1, sharex=True, height_ratios=(0.12, 1.0))
@@ -87,6 +94,8 @@ def plot(*, transit: pd.DataFrame, shares: pd.DataFrame, regimes: pd.DataFrame, 
     else:
         style.say(spreads, "no part was followed, half of\nthe parts have not moved,\nor all velocities are equal")
     style.limit_x(spreads, transit.acceleration)
+    for axes in (bands, spreads):
+        mark_advice(axes, advice)
     spreads.set_xlabel(style.AMPLITUDE)
     spreads.set_ylabel("relative spread")
     draw_lengths(tracks, lengths)

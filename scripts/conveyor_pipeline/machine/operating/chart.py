@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor import UNITS
+from conveyor.analysis.attractors.labels import LONG_FLIGHT
 from conveyor.packing import plate_peaks
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.steepness import is_frictionless
@@ -14,6 +15,8 @@ from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.advice import ENOUGH, EVEN, FAST, neighbours
 from conveyor_pipeline.machine.operating.parts import differences
 from conveyor_pipeline.machine.operating.regimes import (
+    BESIDE,
+    CHANGING,
     CHAOS,
     ONE,
     SAME_VELOCITY,
@@ -22,7 +25,7 @@ from conveyor_pipeline.machine.operating.regimes import (
     UNDECIDED,
     UNKNOWN,
     UNSETTLED,
-    merge_narrow,
+    group_narrow,
     summarize_amplitudes,
 )
 from conveyor_pipeline.machine.operating.transit import QUANTILES, spread_stderr, time_of_drop
@@ -35,7 +38,17 @@ CERTAIN = 2.0  # standard errors that it must exceed, too
 MOST_CHANGES = 4  # that are named
 MANY_LATE = 0.5  # share of late parts that a page points out
 STILL = 0.01  # of the largest velocity of the plate: slower parts do not count as parts that move forward
+# The states of motion in the words of the trade.
+STATE_WORDS = {"first": "riding", "second": "jumping", "chaos": "chaos", "undecided": "undecided"}
 DECIMALS = 6  # of velocities in m/s: smaller ones are rounding errors
+
+
+def stroke(acceleration: float, frequency: float) -> float:
+    """Displacement of the plate along the direction of vibration, peak to peak (m), without harmonics.
+
+    acceleration : amplitude (m/s²); frequency : Hz
+    """
+    return 2.0 * acceleration / (2.0 * math.pi * frequency) ** 2
 
 
 def summarize_shares(shares: pd.DataFrame) -> dict:
@@ -67,39 +80,41 @@ def moves_forward(transit: pd.DataFrame) -> bool:
     return bool((transit.velocity_95 > STILL * plate_peaks(conveyors).vx).any())
 
 
-def summarize_regimes(regimes: pd.DataFrame, merged: pd.DataFrame) -> dict[str, list[dict]]:
-    """The rows of the table of merged regimes, by regime, and the row in which chaos begins, of the whole table."""
-    names = {"one": ONE, "several": SEVERAL, "only_chaos": CHAOS, "unknown": UNKNOWN}
-    parts = {name: merged[merged.regime == regime] for name, regime in names.items()}
-    parts |= {"rows": merged, "chaos": regimes[regimes.states.str.contains("chaos")].head(1)}
-    return {name: rows.to_dict("records") for name, rows in parts.items()}
-
-
-def amplitudes_inside(shares: pd.DataFrame, intervals: list[dict], regime: str) -> pd.DataFrame:
-    """The amplitudes with a regime in some intervals of merged regimes, as `summarize_amplitudes` describes them."""
-    amplitudes = summarize_amplitudes(shares)
-    inside = [amplitudes.acceleration.between(row["begin"], row["end"]) for row in intervals]
-    return amplitudes[(amplitudes.regime == regime) & np.any(inside, axis=0)]
-
-
-def describe_one_velocity(shares: pd.DataFrame, interval: dict) -> dict:
-    """An interval with one velocity, with its states and velocities, but not those of intervals merged into it."""
-    own = shares[shares.acceleration.isin(amplitudes_inside(shares, [interval], ONE).acceleration)]
-    states = own.groupby("state").starts.sum().sort_values(ascending=False, kind="stable").index
-    ends = own.mean_velocity.min(), own.mean_velocity.max()
-    return {**interval, "states": list(states), "velocity": [round(end, DECIMALS) + 0.0 for end in ends]}
+def summarize_regimes(rows: pd.DataFrame, shares: pd.DataFrame) -> dict:
+    """The rows of the page's table, also by regime, and the lowest amplitude (m/s²) with chaos, None for none."""
+    named = {"one": ONE, "several": SEVERAL, "beside": BESIDE, "only_chaos": CHAOS}
+    named |= {"changing": CHANGING, "unknown": UNKNOWN}
+    parts = {name: rows[rows.regime == regime].to_dict("records") for name, regime in named.items()}
+    chaos = shares.acceleration[shares.state == "chaos"]
+    return {**parts, "rows": rows.to_dict("records"), "chaos_from": None if chaos.empty else float(chaos.min())}
 
 
 def summarize_fastest(shares: pd.DataFrame, intervals: list[dict]) -> dict:
-    """The fastest motions at the amplitudes with several velocities in some intervals.
+    """The fastest motions in some intervals with several velocities.
 
     `best` and `best_share` are ranges of their velocities (m/s) and of the shares of initial conditions that reach
     them, and `most` is the amplitude with the largest share.
     """
-    own = amplitudes_inside(shares, intervals, SEVERAL)
+    amplitudes = summarize_amplitudes(shares)
+    inside = [amplitudes.acceleration.between(row["begin"], row["end"]) for row in intervals]
+    own = amplitudes[np.any(inside, axis=0)]
     ranges = {name: (own[name].min(), own[name].max()) for name in ("best", "best_share")}
     ranges["best"] = [round(end, DECIMALS) + 0.0 for end in ranges["best"]]
     return {**ranges, "most": own.loc[own.best_share.idxmax()].to_dict()}
+
+
+def motion_at(acceleration: float, shares: pd.DataFrame, rows: pd.DataFrame) -> dict:
+    """The motion of equal parts at an amplitude (m/s²) of the table of shares, as the page's table has it.
+
+    `regimes` are those of its row of the table, and `states` its states with their shares, the largest one first.
+    """
+    row = rows[(rows.begin <= acceleration) & (acceleration <= rows.end)].iloc[0]
+    at = shares[shares.acceleration == acceleration].groupby("state").share.sum()
+    return {
+        "regime": row.regime,
+        "regimes": row.regimes,
+        "states": at.sort_values(ascending=False, kind="stable").to_dict(),
+    }
 
 
 def select_changes(aim: str, changes: pd.DataFrame) -> list[dict]:
@@ -133,6 +148,12 @@ def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.Da
     }
 
 
+def name_end(acceleration: float, transit: pd.DataFrame) -> str | None:
+    """The key of the axis, start or stop, if an amplitude is an end of the amplitudes of the table of transit."""
+    low, high = transit.acceleration.min(), transit.acceleration.max()
+    return None if low == high else {low: "start", high: "stop"}.get(acceleration)
+
+
 def make(
     template: str,
     transit: pd.DataFrame,
@@ -141,18 +162,28 @@ def make(
     advice: pd.DataFrame,
     changes: pd.DataFrame,
     assumed: Sequence[str],
+    axis: str,
 ) -> str:
-    """The page from its template and its tables; `assumed` are differences of parts that the config does not state."""
-    merged = merge_narrow(regimes, advice.attrs["margin"])
+    """The page from its template and its tables.
+
+    assumed : differences of parts that the config does not state
+    axis : key of the amplitudes in the config
+    """
+    rows = group_narrow(regimes, advice.attrs["margin"])
     velocities = ["velocity_low", "best_low", "best_high"]
-    merged[velocities] = merged[velocities].round(DECIMALS) + 0.0  # no negative zero
-    values = summarize_advice(transit, advice, changes) | summarize_shares(shares) | summarize_regimes(regimes, merged)
-    values["one"] = [describe_one_velocity(shares, row) for row in values["one"]]
+    rows[velocities] = rows[velocities].round(DECIMALS) + 0.0  # no negative zero
+    values = summarize_advice(transit, advice, changes) | summarize_shares(shares) | summarize_regimes(rows, shares)
+    for run in filter(None, (values["fast"], values["even"])):
+        run |= {"motion": motion_at(run["states_acceleration"], shares, rows)}
+        run |= {"end": name_end(run["acceleration"], transit)}
     if values["several"]:
         values["fastest"] = summarize_fastest(shares, values["several"])
     values |= {
         "units": UNITS,
+        "words": STATE_WORDS,
+        "long_flight": LONG_FLIGHT,
         "assumed": {name: transit.attrs["spread"][name] for name in assumed},
+        "axis": axis,
         "options": advice.attrs,
         "forward": moves_forward(transit),
         "still": STILL,
@@ -161,9 +192,9 @@ def make(
         "ends": (transit.acceleration.min(), transit.acceleration.max()),
         "frictionless": is_frictionless(transit.attrs["model"]),
         "slides": (shares.status == SLIDES_AWAY).any(),
-        "merged": len(merged) < len(regimes),
         # The digits to which the ends of intervals of amplitudes are known.
         "digits": max(0, math.ceil(-math.log10(shares.attrs["resolution"]))),
         "throw_per_amplitude": shares.vertical.iloc[-1] / shares.acceleration.iloc[-1],
+        "stroke_per_amplitude": stroke(1.0, transit.attrs["model"]["frequency"]),
     }
     return render(template, values)

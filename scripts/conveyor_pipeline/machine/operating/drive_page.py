@@ -3,12 +3,21 @@
 import numpy as np
 import pandas as pd
 
+from conveyor import throw_number
 from conveyor_pipeline.common.steepness import is_frictionless, is_steep
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.chart import MANY_LATE, RULE_OF_THREE
-from conveyor_pipeline.machine.operating.drive import DRAWN, SEEDS, SETTLED, last_growth
+from conveyor_pipeline.machine.operating.drive import DRAWN, SEARCHED, SEEDS, SETTLED, last_growth
 from conveyor_pipeline.machine.operating.parts import differences
 from conveyor_pipeline.machine.operating.transit import ENDS
+
+CLOSE = 0.02  # of the width of bounds, or of a limit: a design that is closer lies at it
+
+
+def throw_numbers(designs: pd.DataFrame, model: dict) -> list[float]:
+    """The throw number of each design."""
+    at = [throw_number(1.0, **(model | {"angle": angle})) for angle in designs.angle]
+    return (designs.acceleration * at).tolist()
 
 
 def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
@@ -33,12 +42,26 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
     }
 
 
+def ends_reached(design: dict, settings: dict) -> list[str]:
+    """The keys of the bounds and limits of a search at which a design lies, with the side of the bounds."""
+    reached = []
+    for name in SEARCHED:
+        low, high = settings["bounds"][name]
+        for side, distance in (("lower", design[name] - low), ("upper", high - design[name])):
+            if low < high and distance <= CLOSE * (high - low):
+                reached.append(f"the {side} bound of `drive.bounds.{name}`")
+    limits = (("impact_speed", design["checked_impact_speed"]), ("displacement", design["displacement"]))
+    return reached + [f"`drive.{name}`" for name, value in limits if value >= (1.0 - CLOSE) * settings[name]]
+
+
 def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFrame) -> str:
     """The page from its template and the tables of the front and of the generations."""
     recommended = drive_front[drive_front.recommended].sort_values("checked_velocity", ascending=False, kind="stable")
     values = summarize_search(front=drive_front, generations=drive_generations)
     values |= {
         "rows": recommended.to_dict("records"),
+        "reached": ends_reached(recommended.iloc[0].to_dict(), drive_front.attrs) if len(recommended) else [],
+        "throw_numbers": throw_numbers(recommended, drive_front.attrs["model"]),
         "late": (recommended.checked_late > MANY_LATE).sum(),
         "slides": is_steep(drive_front.attrs["model"]),
         "frictionless": is_frictionless(drive_front.attrs["model"]),

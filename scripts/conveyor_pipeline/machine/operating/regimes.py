@@ -12,6 +12,8 @@ ONE, SEVERAL, BESIDE, CHAOS, UNKNOWN = REGIMES = (
     "chaos only",
     "unknown",
 )
+# Of neighbouring intervals that are all narrower than the error of the amplitude, see `group_narrow`.
+CHANGING = "changes within the error of the amplitude"
 # Relative difference up to which two velocities count as equal, in units of the larger one.
 SAME_VELOCITY = 0.02
 # The status of a motion on a track that is too steep, see `track`.
@@ -106,38 +108,31 @@ def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame
     return pd.DataFrame(rows)
 
 
-def join(rows: pd.DataFrame) -> pd.Series:
-    """One interval from neighbouring ones: the regime of the widest, the states and the range of velocities of all."""
-    by_width = rows.loc[(rows.right - rows.left).sort_values(ascending=False, kind="stable").index]
-    widest = by_width.iloc[0]
-    states = dict.fromkeys(", ".join(by_width.states).split(", "))  # each once, in this order
-    least = rows[["begin", "left", "velocity_low", "best_low", "best_share_low"]].min(skipna=False)
-    most = rows[["end", "right", "step", "best_high", "best_share_high", "best_share_stderr"]].max(skipna=False)
-    return pd.Series({**widest, **least, **most, "states": ", ".join(states), "amplitudes": rows.amplitudes.sum()})
+def join(rows: pd.DataFrame) -> dict:
+    """One interval from neighbouring ones, with the states and the range of velocities of all of them."""
+    states = dict.fromkeys(", ".join(rows.states).split(", "))  # each once, in this order
+    least = rows[["begin", "velocity_low", "best_low", "best_share_low"]].min(skipna=False)
+    most = rows[["end", "step", "best_high", "best_share_high", "best_share_stderr"]].max(skipna=False)
+    return {**least, **most, "states": ", ".join(states), "amplitudes": rows.amplitudes.sum(), "regime": CHANGING}
 
 
-def merge_narrow(regimes: pd.DataFrame, margin: float) -> pd.DataFrame:
-    """The table of regimes without intervals that are narrower than a relative margin of the amplitude.
+def group_narrow(regimes: pd.DataFrame, margin: float) -> pd.DataFrame:
+    """The table of regimes with neighbouring intervals as one if each is narrower than a relative margin of the
+    amplitude; the regime there is CHANGING.
 
-    The narrowest interval is merged into its wider neighbour until none is too narrow. Unknown intervals stay, and take
-    no others, because what happens there may differ from what happens beside them. An interval ends half-way between
-    computed amplitudes.
+    No drive holds its amplitude inside such an interval. Unknown intervals stay as they are, because what happens there
+    is not known. An interval ends half-way between computed amplitudes.
+
+    Returns
+    -------
+    the columns of the table, and `regimes`: the list of the regimes of each row
     """
     between = 0.5 * (regimes.end.shift() + regimes.begin)
-    rows = regimes.assign(left=between.fillna(regimes.begin), right=between.shift(-1).fillna(regimes.end))
-    while True:
-        known = rows.regime != UNKNOWN
-        has_neighbour = known.shift(1, fill_value=False) | known.shift(-1, fill_value=False)
-        relative = ((rows.right - rows.left) / rows.right).where(known & has_neighbour, np.inf)
-        if relative.min() >= margin:
-            break
-        place = int(relative.argmin())
-        beside = [k for k in (place - 1, place + 1) if 0 <= k < len(rows) and known[k]]
-        wider = max(beside, key=lambda k: rows.right.iloc[k] - rows.left.iloc[k])
-        joined = join(rows.iloc[min(place, wider) : max(place, wider) + 1])
-        parts = [rows.iloc[: min(place, wider)], joined.to_frame().T, rows.iloc[max(place, wider) + 1 :]]
-        rows = pd.concat(parts, ignore_index=True)
-        # Neighbours with one regime are one interval.
-        number = (rows.regime != rows.regime.shift()).cumsum()
-        rows = pd.DataFrame([join(part) for _, part in rows.groupby(number)]).reset_index(drop=True)
-    return rows.drop(columns=["left", "right"]).infer_objects()
+    left, right = between.fillna(regimes.begin), between.shift(-1).fillna(regimes.end)
+    narrow = ((right - left) / right < margin) & (regimes.regime != UNKNOWN)
+    number = (~(narrow & narrow.shift(fill_value=False))).cumsum()
+    rows = [
+        (join(part) if len(part) > 1 else part.iloc[0].to_dict()) | {"regimes": list(part.regime.unique())}
+        for _, part in regimes.groupby(number)
+    ]
+    return pd.DataFrame(rows, columns=[*regimes.columns, "regimes"])

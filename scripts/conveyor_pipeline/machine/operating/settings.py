@@ -66,7 +66,6 @@ class Parts(TypedDict):
 
 
 class Transit(TypedDict):
-    dimensionless: dimensionless(acceleration=THROWS)
     acceleration: AMPLITUDES
     length: number("length of the track", "m", ge=1e-3, le=1e4)
     longest: number("time after which a part is late", "s", gt=0, le=1e5)
@@ -149,10 +148,22 @@ def box_settings(section: str, config: dict) -> dict:
     return {**own, "model": model_of(config, without=(*INITIAL_CONDITION, *config[section]))}
 
 
+def transit_axis(config: dict) -> dict | list:
+    """The amplitudes of the transit table: those of the section `operating`, with what `transit.acceleration` gives."""
+    shared, own = config["operating"]["acceleration"], config["transit"].get("acceleration", {})
+    return {**shared, **own} if isinstance(own, dict) and isinstance(shared, dict) else own or shared
+
+
+def key_of_amplitudes(config: dict) -> str:
+    """The key of the config that decides the ends of the amplitudes of the transit table."""
+    return f"{'transit' if 'acceleration' in config['transit'] else 'operating'}.acceleration"
+
+
 def transit_settings(config: dict, without: Iterable[str] = ()) -> dict:
     """The box of `operating`, the section `transit`, how its parts differ, and the model without some parameters."""
-    transit = {name: config["transit"][name] for name in ("acceleration", "length", "longest")}
-    own = {**box_of(config, "seed", "tolerance"), **transit, "starts": config["transit"]["parts"]}
+    transit = {name: config["transit"][name] for name in ("length", "longest")}
+    transit |= {"acceleration": transit_axis(config), "starts": config["transit"]["parts"]}
+    own = {**box_of(config, "seed", "tolerance"), **transit}
     return {**own, "spread": config["parts"], "model": model_of(config, without=(*INITIAL_CONDITION, *without))}
 
 
@@ -190,7 +201,7 @@ TABLE_SETTINGS = {
 }
 # Where the config may have a key `dimensionless`: keys below each section, or () for the section itself.
 SCALED = {
-    **dict.fromkeys(("operating", "transit", "track"), ((),)),
+    **dict.fromkeys(("operating", "track"), ((),)),
     "advice": (("changes",),),
     "drive": (("bounds",), ("search",)),
 }
