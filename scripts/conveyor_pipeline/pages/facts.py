@@ -19,9 +19,8 @@ import pandas as pd
 
 from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from conveyor_pipeline.machine.excitation import clean_drive
-from conveyor_pipeline.machine.operating.parts import POPULATIONS, differences
+from conveyor_pipeline.machine.operating.populations import ENDS, POPULATIONS, differences
 from conveyor_pipeline.machine.operating.regimes import SEVERAL
-from conveyor_pipeline.machine.operating.transit import ENDS
 from conveyor_pipeline.paper.caption_numbers import fig10, moved_impacts
 from conveyor_pipeline.paper.caption_numbers.bifurcation import accumulation
 from conveyor_pipeline.paper.claims.about_proofs import lowest_fold, stable_motions

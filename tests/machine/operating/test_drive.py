@@ -9,7 +9,7 @@ from project import ROOT, si_config
 
 from conveyor_pipeline.common import pareto
 from conveyor_pipeline.config.tables import TABLES
-from conveyor_pipeline.machine.operating import drive, drive_page, parts, transit
+from conveyor_pipeline.machine.operating import drive, drive_page, populations, transit
 
 SETTINGS = {**TABLES["operating/drive_front"](si_config()), "starts": 24, "longest": 2.0}
 TEMPLATE = (ROOT / "workflow/templates/drive.md").read_text()
@@ -23,7 +23,7 @@ def test_the_worst_within_the_margin_counts():
     model = settings["model"] | dict(zip(drive.SEARCHED[1:], PAPER, strict=True))
     for place, amplitude in enumerate((40.0, 50.0)):
         amplitudes = amplitude * np.array([0.95, 1.0, 1.05])
-        alone = transit.measure(amplitudes, {**settings, "model": model}, (parts.VARIED,))
+        alone = transit.measure(amplitudes, {**settings, "model": model}, (populations.VARIED,))
         assert found.velocity[place] == alone.velocity_05.min()
         assert found.velocity_95[place] == alone.velocity_95.max()
         assert found.impact_speed[place] == alone.impact_speed.max()

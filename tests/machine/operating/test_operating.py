@@ -15,7 +15,17 @@ from conveyor_pipeline.common.labelling import label_entry
 from conveyor_pipeline.common.steepness import steepness
 from conveyor_pipeline.common.templates import format_range
 from conveyor_pipeline.config.tables import TABLES
-from conveyor_pipeline.machine.operating import advice, chart, parts, regimes, settings, shares, throws, transit
+from conveyor_pipeline.machine.operating import (
+    advice,
+    chart,
+    parts,
+    populations,
+    regimes,
+    settings,
+    shares,
+    throws,
+    transit,
+)
 
 TEMPLATE = (ROOT / "workflow/templates/operating_chart.md").read_text()
 BOX = {
@@ -28,7 +38,7 @@ BOX = {
 
 def test_heights_are_above_the_plate_at_the_initial_phase():
     box = {**BOX, "starts": 3, "model": {"angle": 0.3}}
-    rows, starts = parts.population(np.array([30.0, 50.0]), box, parts.IDENTICAL), parts.starts_of_box(box)
+    rows, starts = parts.population(np.array([30.0, 50.0]), box, populations.IDENTICAL), parts.starts_of_box(box)
     assert rows.shape == (6,)
     for row, acceleration, (height, velocity, phase) in zip(
         rows, np.repeat([30.0, 50.0], 3), np.tile(starts, (2, 1)), strict=True
@@ -73,7 +83,7 @@ def table():
 
 def test_labels_agree_with_sweeps(table):
     """The same initial conditions as rows of a sweep, without shared chaotic sets."""
-    parameters = parts.population(np.array([40.0]), BOX, parts.IDENTICAL)
+    parameters = parts.population(np.array([40.0]), BOX, populations.IDENTICAL)
     found = label_entry(parameters, {**BOX, "axes": {"acceleration": [40.0]}})
     own = table[table.acceleration == 40.0].set_index("state").starts
     assert own.to_dict() == pd.Series(found.state).value_counts().to_dict()
@@ -303,7 +313,7 @@ def test_boundaries_are_located_with_a_limited_number_of_amplitudes(monkeypatch)
     table = shares.make(SETTINGS)["shares"]
     np.testing.assert_array_equal(np.unique(table.acceleration), np.linspace(20.0, 60.0, 9))
     table.attrs = SETTINGS
-    assert chart.summarize_shares(table)["located"] == 5.0
+    assert regimes.summarize_shares(table)["located"] == 5.0
 
 
 @pytest.mark.parametrize(

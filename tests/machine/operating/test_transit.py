@@ -10,14 +10,14 @@ from project import si_config
 from conveyor import Columns, Conveyor, Start, conveyor_and_start, ensemble, parameter_table, plate_motion, simulate
 from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.config.tables import TABLES
-from conveyor_pipeline.machine.operating import drift, parts, regimes, transit
+from conveyor_pipeline.machine.operating import drift, parts, populations, regimes, transit
 
 SETTINGS = TABLES["operating/transit"](si_config()) | {"starts": 24, "longest": 5.0}
-EQUAL = dict.fromkeys(parts.COLUMNS, 0.0) | {"seed": 2}
+EQUAL = dict.fromkeys(populations.COLUMNS, 0.0) | {"seed": 2}
 
 
 def test_factors_have_the_given_relative_standard_deviations():
-    spread = dict(zip(parts.COLUMNS, (0.3, 0.1, 0.0, 0.05, 0.01), strict=True)) | {"seed": 3}
+    spread = dict(zip(populations.COLUMNS, (0.3, 0.1, 0.0, 0.05, 0.01), strict=True)) | {"seed": 3}
     found = parts.factors(spread, 200_000)
     assert found.std(axis=0) / found.mean(axis=0) == pytest.approx([0.3, 0.1, 0.0, 0.05, 0.01], rel=0.01)
     assert np.median(found, axis=0) == pytest.approx(np.ones(5), abs=3e-3)
@@ -40,10 +40,10 @@ def test_parts_are_the_same_at_all_amplitudes():
 
 
 def test_parts_without_differences_are_identical():
-    rows = [parts.population(np.array([40.0]), SETTINGS | {"spread": EQUAL}, kind) for kind in parts.POPULATIONS]
+    rows = [parts.population(np.array([40.0]), SETTINGS | {"spread": EQUAL}, kind) for kind in populations.POPULATIONS]
     np.testing.assert_array_equal(*rows)
     table = transit.measure(np.array([40.0]), {**SETTINGS, "spread": EQUAL})
-    one, other = (table[table.population == kind].drop(columns="population") for kind in parts.POPULATIONS)
+    one, other = (table[table.population == kind].drop(columns="population") for kind in populations.POPULATIONS)
     np.testing.assert_array_equal(one, other)
 
 
@@ -171,14 +171,14 @@ def test_a_part_on_a_steep_track_moves_back():
 def test_quantiles_agree_with_a_fixed_step_method_and_other_random_numbers(amplitude):
     """Brute force: RK4 with 10 µs, sampled at each millisecond, other initial conditions and other parts."""
     settings = SETTINGS | {"starts": 128, "longest": 1.5, "length": 0.1}
-    own = transit.measure(np.array([amplitude]), settings, (parts.VARIED,)).iloc[0]
+    own = transit.measure(np.array([amplitude]), settings, (populations.VARIED,)).iloc[0]
     other = {**settings, "seed": 77, "spread": settings["spread"] | {"seed": 78}, "starts": 96}
     times, velocity = np.arange(1, 1501) / 1000.0, []
     for row in parts.population(np.array([amplitude]), other):
         x = simulate(*conveyor_and_start(row), duration=1.5, method="rk4", step=1e-5).sample(times)["x"]
         velocity.append(0.1 / times[np.argmax(x >= 0.1)] if (x >= 0.1).any() else x[-1] / 1.5)
     found, errors = transit.quantiles(np.array(velocity))
-    for place, name in enumerate(transit.QUANTILES):
+    for place, name in enumerate(populations.QUANTILES):
         error = math.hypot(errors[place], own[f"{name}_stderr"])
         assert found[place] == pytest.approx(own[name], abs=4.0 * error + 1e-3 * abs(own[name])), name
 

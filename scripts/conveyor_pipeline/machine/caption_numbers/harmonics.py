@@ -5,7 +5,7 @@ import pandas as pd
 
 from conveyor_pipeline.machine.excitation import clean_drive
 from conveyor_pipeline.machine.excitation.limits import MATTERS, STATEMENT
-from conveyor_pipeline.machine.operating.transit import ENDS
+from conveyor_pipeline.machine.operating.populations import ENDS
 
 
 def numbers(*, drives: pd.DataFrame) -> dict:

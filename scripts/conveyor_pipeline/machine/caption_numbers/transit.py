@@ -4,9 +4,8 @@ import pandas as pd
 
 from conveyor.analysis.chaos.random_walk import NO_FLUCTUATIONS
 from conveyor_pipeline.common.templates import format_number
-from conveyor_pipeline.machine.operating.parts import differences
+from conveyor_pipeline.machine.operating.populations import ENDS, differences
 from conveyor_pipeline.machine.operating.regimes import CHAOS, SEVERAL
-from conveyor_pipeline.machine.operating.transit import ENDS
 
 
 def numbers(*, transit: pd.DataFrame, lengths: pd.DataFrame, drift: pd.DataFrame) -> dict:

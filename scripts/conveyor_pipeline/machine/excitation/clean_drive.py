@@ -12,7 +12,7 @@ import pandas as pd
 from conveyor_pipeline.common import fields
 from conveyor_pipeline.machine.excitation.limits import MATTERS, STATEMENT
 from conveyor_pipeline.machine.operating import transit
-from conveyor_pipeline.machine.operating.parts import VARIED
+from conveyor_pipeline.machine.operating.populations import VARIED
 
 RIDING, CHAOS = REGIMES = ("riding", "chaos")
 MEASURES = {"velocity_05": "the slowest 5 %", "velocity_50": "the median"}

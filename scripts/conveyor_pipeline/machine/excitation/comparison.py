@@ -9,7 +9,7 @@ from conveyor_pipeline.common import fields
 from conveyor_pipeline.machine.excitation.limits import MATTERS
 from conveyor_pipeline.machine.excitation.overlay import drive_of, harmonics_above_noise
 from conveyor_pipeline.machine.operating import transit
-from conveyor_pipeline.machine.operating.parts import VARIED
+from conveyor_pipeline.machine.operating.populations import VARIED
 
 WITH, WITHOUT = DRIVES = ("with harmonics", "without harmonics")
 TABLES = {

@@ -9,7 +9,7 @@ from conveyor_pipeline.machine.excitation import comparison as compared
 from conveyor_pipeline.machine.excitation.clean_drive import MEASURES
 from conveyor_pipeline.machine.excitation.estimates import CHANCE
 from conveyor_pipeline.machine.excitation.limits import MATTERS
-from conveyor_pipeline.machine.operating.parts import differences
+from conveyor_pipeline.machine.operating.populations import differences
 
 
 def make(

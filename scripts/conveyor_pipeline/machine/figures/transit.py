@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from conveyor_pipeline.figures import style
 from conveyor_pipeline.machine.figures.operating import draw_regimes, mark_advice
-from conveyor_pipeline.machine.operating.parts import IDENTICAL, POPULATIONS, VARIED, differences
+from conveyor_pipeline.machine.operating.populations import IDENTICAL, POPULATIONS, VARIED, differences
 from conveyor_pipeline.machine.operating.regimes import CHAOS
 
 COLOURS = {IDENTICAL: "#56B4E9", VARIED: "0.25"}

@@ -13,10 +13,10 @@ import pandas as pd
 
 from conveyor import RANGES, throw_number
 from conveyor_pipeline.common import fields
-from conveyor_pipeline.machine.operating.parts import VARIED, population, with_calibration
+from conveyor_pipeline.machine.operating.parts import population, with_calibration
+from conveyor_pipeline.machine.operating.populations import PROBABILITIES, VARIED
 from conveyor_pipeline.machine.operating.transit import (
     MEASURES,
-    PROBABILITIES,
     follow,
     measure,
     spread_of,

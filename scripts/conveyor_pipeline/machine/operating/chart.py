@@ -13,26 +13,21 @@ from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.steepness import is_frictionless
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.advice import ENOUGH, EVEN, FAST, neighbours
-from conveyor_pipeline.machine.operating.parts import differences
+from conveyor_pipeline.machine.operating.populations import QUANTILES, differences
 from conveyor_pipeline.machine.operating.regimes import (
     BESIDE,
     CHANGING,
     CHAOS,
     ONE,
-    SAME_VELOCITY,
     SEVERAL,
     SLIDES_AWAY,
-    UNDECIDED,
     UNKNOWN,
-    UNSETTLED,
     group_narrow,
     summarize_amplitudes,
+    summarize_shares,
 )
-from conveyor_pipeline.machine.operating.transit import QUANTILES, spread_stderr, time_of_drop
+from conveyor_pipeline.machine.operating.transit import spread_stderr, time_of_drop
 
-# If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
-# -log(0.05) is 2.996.
-RULE_OF_THREE = 3.0
 WORTH_CHANGING = 0.01  # relative change of velocity or spread from which a change of a parameter is named
 CERTAIN = 2.0  # standard errors that it must exceed, too
 MOST_CHANGES = 4  # that are named
@@ -49,29 +44,6 @@ def stroke(acceleration: float, frequency: float) -> float:
     acceleration : amplitude (m/s²); frequency : Hz
     """
     return 2.0 * acceleration / (2.0 * math.pi * frequency) ** 2
-
-
-def summarize_shares(shares: pd.DataFrame) -> dict:
-    """The settings (`search`), amplitudes (m/s²) and throw numbers of the table of shares.
-
-    `unseen_share` is the largest share of initial conditions that may lead to a motion that none of the tested ones
-    leads to. `located` is the largest distance between neighbouring amplitudes with different regimes, at least the
-    resolution of the config. `unsettled` is the number of amplitudes at which a search ended before a state or a
-    velocity was known.
-    """
-    amplitudes = np.sort(shares.acceleration.unique())
-    regime = summarize_amplitudes(shares).regime.to_numpy()
-    between = np.diff(amplitudes)[regime[1:] != regime[:-1]]
-    return {
-        "search": shares.attrs,
-        "same_velocity": SAME_VELOCITY,
-        "unseen_share": RULE_OF_THREE / shares.attrs["starts"],
-        "amplitudes": amplitudes,
-        "unsettled": shares[shares.status.isin((UNDECIDED, UNSETTLED))].acceleration.nunique(),
-        "located": between.max(initial=shares.attrs["resolution"]),
-        "step": np.diff(amplitudes).max(initial=0.0),
-        "throw_numbers": (shares.vertical.min(), shares.vertical.max()),
-    }
 
 
 def moves_forward(transit: pd.DataFrame) -> bool:

@@ -12,9 +12,10 @@ import pandas as pd
 from conveyor import sample_runs
 from conveyor.analysis.chaos.random_walk import RANDOM_WALK_STATUS, random_walk, relative_spread
 from conveyor_pipeline.common import fields, grid
-from conveyor_pipeline.machine.operating.parts import IDENTICAL, population, starts_of_box
+from conveyor_pipeline.machine.operating.parts import population, starts_of_box
+from conveyor_pipeline.machine.operating.populations import IDENTICAL, PROBABILITIES
 from conveyor_pipeline.machine.operating.regimes import CHAOS, SEVERAL
-from conveyor_pipeline.machine.operating.transit import PROBABILITIES, follow, quantiles, spread_of, spread_stderr
+from conveyor_pipeline.machine.operating.transit import follow, quantiles, spread_of, spread_stderr
 
 # By an effort of 1, with which the standard error of a diffusion coefficient is about 5 %.
 AMPLITUDES = 8  # at most, among those at which all initial conditions end in chaos

@@ -6,10 +6,10 @@ import pandas as pd
 from conveyor import throw_number
 from conveyor_pipeline.common.steepness import is_frictionless, is_steep
 from conveyor_pipeline.common.templates import render
-from conveyor_pipeline.machine.operating.chart import MANY_LATE, RULE_OF_THREE
+from conveyor_pipeline.machine.operating.chart import MANY_LATE
 from conveyor_pipeline.machine.operating.drive import DRAWN, SEARCHED, SEEDS, SETTLED, last_growth
-from conveyor_pipeline.machine.operating.parts import differences
-from conveyor_pipeline.machine.operating.transit import ENDS
+from conveyor_pipeline.machine.operating.populations import ENDS, differences
+from conveyor_pipeline.machine.operating.regimes import RULE_OF_THREE
 
 CLOSE = 0.02  # of the width of bounds, or of a limit: a design that is closer lies at it
 

@@ -13,30 +13,15 @@ from conveyor.elementary import exp, log
 from conveyor.packing import plate_heights
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.rule_log import JobError
+from conveyor_pipeline.machine.operating.populations import COLUMNS, VARIED
 
-# The parameters that differ, in the order of their random numbers.
-COLUMNS = ("friction", "damping", "stiffness", "mass", "acceleration")
 ROUNDING = 1e-5  # largest relative error of a calibrated value in an overlay
-IDENTICAL, VARIED = POPULATIONS = ("identical", "varied")
 
 
 def starts_of_box(settings: dict) -> np.ndarray:
     """Initial heights above the plate (m), velocities normal to it (m/s) and phases (rad), shape (n, 3)."""
     low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
     return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
-
-
-def differences(settings: dict) -> dict[str, dict[str, float] | bool]:
-    """How parts differ, from the settings of a transit table.
-
-    `spread` has the relative standard deviations that are not zero, by parameter, and `calibrated` says whether the
-    parameters are drawn from the samples of a calibration, too.
-    """
-    own = settings["spread"]
-    return {
-        "spread": {name: share for name, share in own.items() if name in COLUMNS and share > 0.0},
-        "calibrated": own.get("calibrated", False),
-    }
 
 
 def factors(spread: dict, count: int) -> np.ndarray:

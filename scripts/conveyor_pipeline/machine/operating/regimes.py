@@ -23,6 +23,10 @@ UNDECIDED, UNSETTLED = "state not decided", "mean velocity not settled"
 # The status of a state that was not found although it may exist, see `track`.
 NOT_ALL_SETTLED = "not all initial conditions settled"
 
+# If none of n independent initial conditions does something, then with 95 % confidence at most a share of 3/n does it:
+# -log(0.05) is 2.996.
+RULE_OF_THREE = 3.0
+
 # Columns of the table `regimes`.
 COLUMNS = (
     fields.count("number", "number of the interval of amplitudes, in ascending order"),
@@ -78,6 +82,29 @@ def summarize_amplitudes(shares: pd.DataFrame) -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
+
+
+def summarize_shares(shares: pd.DataFrame) -> dict:
+    """The settings (`search`), amplitudes (m/s²) and throw numbers of the table of shares.
+
+    `unseen_share` is the largest share of initial conditions that may lead to a motion that none of the tested ones
+    leads to. `located` is the largest distance between neighbouring amplitudes with different regimes, at least the
+    resolution of the config. `unsettled` is the number of amplitudes at which a search ended before a state or a
+    velocity was known.
+    """
+    amplitudes = np.sort(shares.acceleration.unique())
+    regime = summarize_amplitudes(shares).regime.to_numpy()
+    between = np.diff(amplitudes)[regime[1:] != regime[:-1]]
+    return {
+        "search": shares.attrs,
+        "same_velocity": SAME_VELOCITY,
+        "unseen_share": RULE_OF_THREE / shares.attrs["starts"],
+        "amplitudes": amplitudes,
+        "unsettled": shares[shares.status.isin((UNDECIDED, UNSETTLED))].acceleration.nunique(),
+        "located": between.max(initial=shares.attrs["resolution"]),
+        "step": np.diff(amplitudes).max(initial=0.0),
+        "throw_numbers": (shares.vertical.min(), shares.vertical.max()),
+    }
 
 
 def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame:

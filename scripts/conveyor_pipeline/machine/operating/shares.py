@@ -17,7 +17,8 @@ from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import label_starts
 from conveyor_pipeline.common.steepness import steepness
 from conveyor_pipeline.machine.operating import regimes
-from conveyor_pipeline.machine.operating.parts import IDENTICAL, population
+from conveyor_pipeline.machine.operating.parts import population
+from conveyor_pipeline.machine.operating.populations import IDENTICAL
 
 TABLES = {
     "shares": (

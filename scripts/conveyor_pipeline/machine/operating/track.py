@@ -13,7 +13,8 @@ from conveyor.packing import plate_peaks
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import label_starts
 from conveyor_pipeline.common.steepness import fill_in, steepness
-from conveyor_pipeline.machine.operating.parts import IDENTICAL, population
+from conveyor_pipeline.machine.operating.parts import population
+from conveyor_pipeline.machine.operating.populations import IDENTICAL
 from conveyor_pipeline.machine.operating.regimes import NOT_ALL_SETTLED, SLIDES_AWAY
 from conveyor_pipeline.machine.operating.shares import FORGOTTEN, SETTLED, brief_durations, continue_normal
 

@@ -13,12 +13,15 @@ from scipy.special import betainc
 
 from conveyor import Columns, transits
 from conveyor_pipeline.common import fields, grid
-from conveyor_pipeline.machine.operating.parts import IDENTICAL, POPULATIONS, differences, population, with_calibration
+from conveyor_pipeline.machine.operating.parts import population, with_calibration
+from conveyor_pipeline.machine.operating.populations import (
+    IDENTICAL,
+    POPULATIONS,
+    PROBABILITIES,
+    QUANTILES,
+    differences,
+)
 
-PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
-QUANTILES = tuple(f"velocity_{round(100 * probability):02d}" for probability in PROBABILITIES)
-# The quantiles of the slowest and of the fastest parts, %.
-ENDS = [round(100 * PROBABILITIES[place]) for place in (0, -1)]
 # Excitation cycles after which impacts and forces count, so that the drop onto the track does not.
 DROP = 20
 
