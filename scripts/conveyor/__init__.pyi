@@ -53,11 +53,11 @@ from .analysis.attractors.labels import STATES as STATES, classify as classify
 from .interface import Basin as Basin, basin as basin
 
 # Periodic orbits and bifurcations
-from .interface import continue_orbit as continue_orbit, periodic_orbit as periodic_orbit
-from .analysis.bifurcations.periodic_orbits import Orbit as Orbit
+from .analysis.bifurcations.periodic_orbits import Orbit as Orbit, periodic_orbit as periodic_orbit
 from .analysis.bifurcations.continuation import (
     Bifurcation as Bifurcation,
     Branch as Branch,
+    continue_orbit as continue_orbit,
     find_doubled_orbit as find_doubled_orbit,
 )
 from .analysis.bifurcations.doubling_cascade import (

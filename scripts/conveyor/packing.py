@@ -23,6 +23,8 @@ from .solver.model import (
     PHASE_SHIFT,
     STATIC_FRICTION,
     TENSION,
+    VZ0,
+    Z0,
     Conveyor,
     Start,
     check_static_friction,
@@ -160,6 +162,26 @@ def check_rows(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
         coefficients = f"static_friction = {rows[row, STATIC_FRICTION]!s} is below friction = {rows[row, FRICTION]!s}"
         raise ValueError(f"{place_of(row, shape)}: {coefficients}")
     return rows, shape
+
+
+def check_row(name: str, conveyor: object, start: Start = AT_REST) -> np.ndarray:
+    """The numbers of a Conveyor with a start, or of a row of a table, float64, shape (16 + 5 h,).
+
+    A row has an initial condition of its own, which a start other than AT_REST replaces. The error for anything else
+    has the `name` of the argument.
+    """
+    check_type("start", start, Start)
+    if isinstance(conveyor, Conveyor):
+        return pack(conveyor, start)
+    if not isinstance(conveyor, (np.ndarray, np.void)):
+        raise TypeError(f"{name} must be a Conveyor or a row of a table, got {conveyor!r}")
+    rows, shape = check_rows(conveyor)
+    if shape not in ((), (1,)):
+        raise ValueError(f"{name} must be one row of a table, got the shape {shape}")
+    row = np.array(rows[0])
+    if start != AT_REST:
+        row[[Z0, VZ0]] = pack(Conveyor(), start)[[Z0, VZ0]]
+    return row
 
 
 def place_of(row: int, shape: tuple[int, ...]) -> str:

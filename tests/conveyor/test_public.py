@@ -19,7 +19,6 @@ import pytest
 import conveyor
 from conveyor import Conveyor, Start, columns, parameter_table, simulation
 from conveyor.analysis.attractors import sampling, search
-from conveyor.analysis.bifurcations import periodic_orbits
 from conveyor.analysis.chaos import lyapunov
 from conveyor.parameters import PARAMETERS, RANGES
 from conveyor_pipeline.common import fields
@@ -67,8 +66,7 @@ FUNCTIONS = {
     "block_transits": {"parameters": TABLE, "block": conveyor.Block(5e-3, 1e-3), "tilts": [0.0, 0.01], "length": 1e-3}
     | {"longest": 0.05, "begin": [0.01, 0.01], "tolerance": 1e-8, "threads": 1},
     "periodic_orbit": {"conveyor": Conveyor(), "start": Start(), "period": 1, "transient": 10},
-    "find_orbit": {"parameters": TABLE[0], "acceleration": 40.0, "period": 1},
-    "continue_orbit": {"conveyor": Conveyor(), "low": 39.99, "high": 40.01},
+    "continue_orbit": {"parameter": "acceleration", "limits": (39.99, 40.01)},
     "basin": {"conveyor": Conveyor(), "z": [0.0, 1e-4], "vz": 0.0, "cycles": 10, "tolerance": 1e-8, "threads": 1},
     "box_dimension": {"points": POINTS},
     "correlation_dimension": {"points": POINTS, "theiler": 0},
@@ -88,7 +86,6 @@ OVERDAMPED = {
 SECOND_DOOR = {
     "find_attractors": search.find_attractors,
     "lyapunov_spectrum_on_attractors": lyapunov.lyapunov_spectrum_on_attractors,
-    "find_orbit": periodic_orbits.find_orbit,
 }
 ENVIRONMENT = os.environ | {"PYTHONPATH": str(Path(conveyor.__file__).parents[1])}
 METHODS = {"mean_velocity": {"last": 0.5}, "sample": {"times": [0.0, 0.01]}}
@@ -106,7 +103,7 @@ def function_of(name):
 
 def arguments_of(name, orbit):
     """The arguments of one of FUNCTIONS."""
-    return FUNCTIONS[name] | {"find_orbit": {"state": orbit.state}, "continue_orbit": {"orbit": orbit}}.get(name, {})
+    return FUNCTIONS[name] | {"continue_orbit": {"orbit": orbit}}.get(name, {})
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -240,7 +237,7 @@ def test_a_basin_has_the_labels_of_its_initial_conditions():
 
 
 CHECKED = (
-    *("sweep", "sample_runs", "transits", "classify", "find_attractors", "lyapunov_spectrum", "find_orbit"),
+    *("sweep", "sample_runs", "transits", "classify", "find_attractors", "lyapunov_spectrum"),
     "lyapunov_spectrum_on_attractors",
 )
 
@@ -258,18 +255,15 @@ def test_tables_of_parameters_are_checked(name, value, orbit):
     """Each parameter of a row has its range; -1 lies within those of some."""
     for parameter in PARAMETERS:
         table = changed_table(parameter, value)
-        table = table[-1] if name == "find_orbit" else table
         if value == -1.0 and (RANGES.get(parameter, (0.0,))[0] <= value):
             continue
         if np.isnan(value) and parameter in ("z0", "vz0"):
             continue  # a part that starts on the plate, and one whose last run failed
-        with pytest.raises(
-            ValueError, match=rf"parameters{'' if name == 'find_orbit' else r'.1.'}: {parameter} = .* is"
-        ):
+        with pytest.raises(ValueError, match=rf"parameters.1.: {parameter} = .* is"):
             function_of(name)(**arguments_of(name, orbit) | {"parameters": table})
 
 
-@pytest.mark.parametrize("name", sorted(set(CHECKED) - {"find_orbit"}))
+@pytest.mark.parametrize("name", CHECKED)
 def test_contradictions_in_a_table_are_named(name, orbit):
     for parameter, value, words in (
         ("tension", 7.0, "tension = 7.0 is outside"),
@@ -396,8 +390,10 @@ def test_shapes_of_parameters_and_states_are_checked():
         conveyor.sweep(np.zeros((2, 15)))
     with pytest.raises(ValueError, match=r"states must have the shape \(2, 2\)"):
         conveyor.lyapunov_spectrum(TABLE, np.zeros((1, 2)))
-    with pytest.raises(ValueError, match=r"state must be δ \(m\) and v \(m/s\)"):
-        periodic_orbits.find_orbit(TABLE[0], 40.0, np.zeros(3), 1)
+    with pytest.raises(ValueError, match=r"start must be a Start, or δ \(m\) and v \(m/s\)"):
+        conveyor.periodic_orbit(TABLE[0], np.zeros(3))
+    with pytest.raises(ValueError, match=r"conveyor must be one row of a table, got the shape \(2,\)"):
+        conveyor.periodic_orbit(TABLE)
 
 
 @pytest.mark.parametrize("method", ["event", "euler"])
@@ -415,19 +411,20 @@ def test_numbers_of_any_type_give_the_run_of_their_values(kind, method):
 @pytest.mark.parametrize("changed", [{"multipliers": 1.0}, {"multipliers": ("a", "b")}, {"impacts": [1, 2]}])
 def test_an_orbit_with_odd_fields_is_named(changed, orbit):
     with pytest.raises(ValueError, match=f"orbit.{next(iter(changed))}"):
-        conveyor.continue_orbit(Conveyor(), orbit._replace(**changed), low=39.99, high=40.01)
+        conveyor.continue_orbit(orbit._replace(**changed), "acceleration", (39.99, 40.01))
 
 
 def test_an_orbit_of_another_conveyor_is_refused(orbit):
-    with pytest.raises(ValueError, match="orbit is no orbit of this conveyor"):
-        conveyor.continue_orbit(Conveyor(damping=0.31), orbit, low=39.99, high=40.01)
+    other = orbit._replace(parameters=parameter_table(Conveyor(damping=0.31)))
+    with pytest.raises(ValueError, match="orbit is no orbit of its conveyor"):
+        conveyor.continue_orbit(other, "acceleration", (39.99, 40.01))
 
 
 def test_a_branch_has_only_orbits_and_bifurcations_between_its_ends(orbit):
     """The period doubles at 54.218 m/s², less than a step of the branch beyond the first end."""
     ends = {}
     for high in (54.2, 54.22):
-        branch = conveyor.continue_orbit(Conveyor(), orbit, low=39.9, high=high)
+        branch = conveyor.continue_orbit(orbit, "acceleration", (39.9, high))
         assert 39.9 <= branch.orbits[0].acceleration < 40.0
         assert high - 0.1 <= branch.orbits[-1].acceleration <= high
         ends[high] = [point.kind for point in branch.bifurcations]

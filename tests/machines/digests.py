@@ -49,7 +49,7 @@ def labels():
 def orbits():
     jumping = conveyor.Conveyor(acceleration=54.0)
     orbit = conveyor.periodic_orbit(jumping, conveyor.Start(3e-4))
-    branch = conveyor.continue_orbit(jumping, orbit, low=50.0, high=57.0)
+    branch = conveyor.continue_orbit(orbit, "acceleration", (50.0, 57.0))
     return {"orbits": pd.DataFrame([one._asdict() for one in branch.orbits]), "ends": pd.DataFrame([branch.ends])}
 
 

@@ -32,7 +32,7 @@ def settled(acceleration: float, z0: float, period: int) -> np.ndarray:
     """Strobes (δ, Y) of the stable orbit that an initial condition leads to, in units of the law."""
     row = pack(Conveyor(acceleration=acceleration), Start(z0))
     state = stroboscopic_map.initial_states(row[None], periodic_orbits.ORBIT_TOLERANCE)[0]
-    orbit = periodic_orbits.settled_orbit(row, acceleration, state, (period,), 1000)
+    orbit = periodic_orbits.settled_orbit(row, state, (period,), 1000)
     return strobes(acceleration, orbit.state, period)
 
 
@@ -45,7 +45,7 @@ def strobes(acceleration: float, state: np.ndarray, period: int) -> np.ndarray:
 def stored(acceleration: float, start: np.ndarray, period: int) -> periodic_orbits.Orbit:
     """The orbit of these strobes in floating point."""
     state = periodic_orbits.ReturnMap(PARAMETERS, period).state(np.append(start[0], acceleration))
-    return periodic_orbits.find_orbit(PARAMETERS, acceleration, state, period)
+    return periodic_orbits.orbit_near(pack(Conveyor(acceleration=acceleration), Start()), state, period)
 
 
 def shooting(period: int, law=None, accuracy=FINE) -> Shooting:
@@ -82,7 +82,7 @@ def test_stable_orbits_are_proved(acceleration, z0, period, impacts):
 
 def test_an_unstable_orbit_is_proved_unstable():
     stable = stored(54.0, settled(54.0, 3e-4, 1), 1)
-    beyond = periodic_orbits.find_orbit(PARAMETERS, 56.0, stable.state, 1)
+    beyond = periodic_orbits.orbit_near(pack(Conveyor(acceleration=56.0), Start()), stable.state, 1)
     orbit = proved(56.0, strobes(56.0, beyond.state, 1))
     assert orbit.stability == "unstable"
     assert orbit.doubling_test < 0
@@ -177,7 +177,7 @@ def test_a_map_with_a_wrong_sign_is_refused(jumping):
 
 def test_an_orbit_that_grazes_is_refused():
     """An interval of amplitudes in which the riding part begins to leave the plate."""
-    riding = continuation.follow_branch(PARAMETERS, stored(45.0, settled(45.0, 0.0, 1), 1), (44.9, 46.0))
+    riding = continuation.follow_branch(stored(45.0, settled(45.0, 0.0, 1), 1), "acceleration", (44.9, 46.0))
     grazing = bifurcation(riding, "grazing")
     equations = shooting(1)
     gamma = equations.law.gamma(exactly(grazing.acceleration) + arb(0, 1e-7))
@@ -187,7 +187,7 @@ def test_an_orbit_that_grazes_is_refused():
 
 @pytest.fixture(scope="module")
 def branch():
-    return continuation.follow_branch(PARAMETERS, stored(40.0, settled(40.0, 3e-4, 1), 1), (23.0, 56.0))
+    return continuation.follow_branch(stored(40.0, settled(40.0, 3e-4, 1), 1), "acceleration", (23.0, 56.0))
 
 
 def bifurcation(branch, kind):
@@ -248,7 +248,7 @@ def is_proved(plan):
 @pytest.fixture(scope="module")
 def horseshoe_plan():
     """Sets along the shortest provable excursion from the strongest saddle of one cycle at 80 m/s²."""
-    rides = continuation.follow_branch(PARAMETERS, stored(45.0, settled(45.0, 0.0, 1), 1), (44.9, 80.5)).orbits
+    rides = continuation.follow_branch(stored(45.0, settled(45.0, 0.0, 1), 1), "acceleration", (44.9, 80.5)).orbits
     returns = periodic_orbits.ReturnMap(PARAMETERS, 1)
     near = [orbit for orbit in rides if abs(orbit.acceleration - 80.0) < 0.2]
     found = [returns.newton(returns.scaled(80.0, orbit.state)) for orbit in near]

@@ -106,14 +106,14 @@ def test_orbits_on_a_known_branch_start_no_new_branch(monkeypatch):
     periods = {"double": 2, "once": 1, "apart": 2}
     starts = [SimpleNamespace(name=name, period=period) for name, period in periods.items()]
     found = {"once": ["once", "double"], "apart": ["apart"], "double": ["double"]}
-    monkeypatch.setattr(branches, "on_branch", lambda parameters, branch, orbit: branch.name == orbit.name)
+    monkeypatch.setattr(branches, "on_branch", lambda branch, orbit: branch.name == orbit.name)
     monkeypatch.setattr(
         branches,
         "explore_bifurcations",
-        lambda parameters, seeds, *rest: [branch(one, [one]) for seed in seeds for one in found[seed.name]],
+        lambda seeds, *rest: [branch(one, [one]) for seed in seeds for one in found[seed.name]],
     )
     settings = {"seeds": [], "limits": [20.0, 90.0], "max_period": 2}
-    assert [one.name for one in branches.explore_branches(None, starts, settings)] == ["once", "double", "apart"]
+    assert [one.name for one in branches.explore_branches(starts, settings)] == ["once", "double", "apart"]
 
 
 def test_no_branch_is_followed_after_the_largest_number_of_orbits(monkeypatch):

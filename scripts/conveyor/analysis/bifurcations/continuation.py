@@ -1,4 +1,4 @@
-"""Branches of periodic orbits in the amplitude â, and the bifurcations on them.
+"""Branches of periodic orbits in one parameter, and the bifurcations on them.
 
 Pseudo-arclength (Keller 1977) follows a branch past its folds. A branch folds where a multiplier passes +1. Its period
 doubles where a multiplier passes -1. An impact grazes where a contact begins or ceases to exist; only this is reported
@@ -13,12 +13,18 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ... import linear_algebra
+from ...arguments import check_choice, check_number
+from ...columns import Columns
+from ...parameters import RANGES, UNITS
 from .newton import follow_curve
-from .periodic_orbits import Orbit, ReturnMap
+from .periodic_orbits import SAME_ORBIT, Orbit, ReturnMap, check_orbit
 
-SAME_ORBIT = 1e-5  # orbits this close are one, in scaled unknowns
+# Parameters in which branches are followed: all that act on the motion normal to the track.
+CONTINUED = (
+    *("acceleration", "angle", "frequency", "stiffness", "damping", "mass", "exponent", "gravity", "inclination"),
+)
 DOUBLED = 0.02  # distance from a period doubling to the orbit of twice the period, in scaled unknowns
-# Arclength of the largest, the first and the smallest step along a branch, in scaled unknowns (about m/s² in â).
+# Arclength of the largest, the first and the smallest step along a branch, in scaled unknowns (m/s² in â).
 LARGEST_STEP, FIRST_STEP, SMALLEST_STEP = 0.1, 1e-3, 1e-7
 STRAIGHT = 0.95  # cosine of the largest turn of a branch within one step
 MAX_ORBITS = 5000
@@ -31,6 +37,11 @@ class Bifurcation(NamedTuple):
     kind: str  # fold, period_doubling, grazing
     orbit: Orbit
     multiplier: float  # the real multiplier at +1 or -1; for a grazing the one of larger modulus
+    parameter: str  # the one that changes along the branch
+
+    def __repr__(self) -> str:
+        value = f"{self.parameter} = {self.orbit.value(self.parameter):.6g}"
+        return f"Bifurcation({self.kind} at {value}, period {self.orbit.period})"
 
 
 class Branch(NamedTuple):
@@ -41,6 +52,25 @@ class Branch(NamedTuple):
     # At the first and last orbit: limit, closed, period halving, step (none is small enough), length (MAX_ORBITS).
     ends: tuple[str, str]
     parent: Orbit | None  # the orbit of half the period where it ends in one
+    parameter: str  # the one that changes along the branch
+
+    @property
+    def columns(self) -> Columns:
+        """Columns of the shape (n,), one row for each orbit, with its value of the parameter."""
+        orbits = self.orbits
+        moduli = np.abs([orbit.multipliers for orbit in orbits])
+        about = {name: np.array([getattr(orbit, name) for orbit in orbits]) for name in ("stable", "impacts")}
+        state = np.array([orbit.state for orbit in orbits])
+        return Columns(
+            {self.parameter: np.array([orbit.value(self.parameter) for orbit in orbits])}
+            | {"delta": state[:, 0], "v": state[:, 1], **about, "multiplier": moduli[:, 0]}
+            | {"longest_flight": np.array([orbit.longest_flight for orbit in orbits])}
+        )
+
+    def __repr__(self) -> str:
+        ends = " to ".join(f"{orbit.value(self.parameter):.6g}" for orbit in (self.orbits[0], self.orbits[-1]))
+        found = ", ".join(f"{one.kind} at {one.orbit.value(self.parameter):.6g}" for one in self.bifurcations)
+        return f"Branch({len(self.orbits)} orbits, {self.parameter} {ends}; {found or 'no bifurcations'})"
 
 
 def fold_test(orbit: Orbit) -> float:
@@ -55,51 +85,74 @@ def doubling_test(orbit: Orbit) -> float:
     return ((1.0 + first) * (1.0 + second)).real
 
 
-def follow_branch(parameters: np.ndarray, orbit: Orbit, limits: tuple[float, float]) -> Branch:
-    """Follow the branch of `orbit` in â to both sides (Keller 1977); bifurcations are located to about 1e-9 m/s².
+def continue_orbit(orbit: Orbit, parameter: str, limits: tuple[float, float]) -> Branch:
+    """The branch of an orbit in one parameter, with its folds, period doublings and grazings.
 
     Parameters
     ----------
-    parameters : a row of a table; its amplitude is ignored
-    orbit : an orbit within the limits
-    limits : lowest and highest â, m/s²
+    orbit : from `periodic_orbit`
+    parameter : acceleration, angle, frequency, stiffness, damping, mass, exponent, gravity or inclination
+    limits : values in SI units between which the branch is followed, on either side of the orbit's value; a branch that
+        reaches one of them ends at most one step before it
+
+    Returns
+    -------
+    Branch, with folds, period doublings and grazings located to about 1e-9 m/s²
 
     Examples
     --------
-    >>> orbit = periodic_orbit(Conveyor(acceleration=40.0), Start(z=3e-4))
-    >>> branch = follow_branch(parameter_table(Conveyor()), orbit, (20.0, 60.0))
-    >>> [(one.kind, round(one.orbit.acceleration, 3)) for one in branch.bifurcations]  # m/s²
-    [('fold', 23.976), ('period_doubling', 54.218)]
+    >>> orbit = periodic_orbit(Conveyor(acceleration=50.0), Start(z=3e-4))
+    >>> continue_orbit(orbit, "acceleration", (49.5, 54.5)).bifurcations
+    [Bifurcation(period_doubling at acceleration = 54.2182, period 1)]
+    >>> [one.kind for one in continue_orbit(orbit, "damping", (0.15, 0.32)).bifurcations]
+    ['period_doubling']
     """
+    check_orbit("orbit", orbit)
+    check_choice("parameter", parameter, CONTINUED)
+    unit, (lowest, highest), value = UNITS[parameter], RANGES[parameter], orbit.value(parameter)
+    if not isinstance(limits, (tuple, list, np.ndarray)) or len(limits) != 2:
+        raise ValueError(f"limits = {limits!r} must be the lowest and the highest {parameter}")
+    low = check_number("limits[0]", limits[0], lowest, value, unit)
+    high = check_number("limits[1]", limits[1], value, highest, unit)
+    branch = follow_branch(orbit, parameter, (low, high))
+    return branch._replace(
+        orbits=[one for one in branch.orbits if low <= one.value(parameter) <= high],
+        bifurcations=[one for one in branch.bifurcations if low <= one.orbit.value(parameter) <= high],
+    )
+
+
+def follow_branch(orbit: Orbit, parameter: str, limits: tuple[float, float]) -> Branch:
+    """Follow the branch of `orbit` to both sides (Keller 1977), up to the first orbit beyond each of the limits."""
     upwards = np.array([0.0, 0.0, 1.0])
-    orbits, bifurcations, last, parent = _follow(parameters, orbit, limits, upwards)
+    orbits, bifurcations, last, parent = _follow(orbit, parameter, limits, upwards)
     if last == "closed":
-        return Branch(orbits, bifurcations, (last, last), None)
-    before, bifurcations_before, first, other = _follow(parameters, orbit, limits, -upwards)
+        return Branch(orbits, bifurcations, (last, last), None, parameter)
+    before, bifurcations_before, first, other = _follow(orbit, parameter, limits, -upwards)
     return Branch(
         [*before[:0:-1], *orbits],
         [*reversed(bifurcations_before), *bifurcations],
         (first, last),
         parent if other is None else other,
+        parameter,
     )
 
 
-def _follow(parameters, orbit, limits, direction):
+def _follow(orbit, parameter, limits, direction):
     """Orbits and bifurcations in the order in which they are met, the reason of the end, and the orbit's parent."""
-    returns = ReturnMap(parameters, orbit.period)
-    here = returns.scaled(orbit.acceleration, orbit.state)
+    returns = ReturnMap(orbit.parameters, orbit.period, parameter)
+    here = returns.unknown(orbit)
     beginning = returns.strobes(here)
     orbits, bifurcations = [orbit], []
     lengths = {"first": FIRST_STEP, "smallest": SMALLEST_STEP, "largest": LARGEST_STEP}
     steps = follow_curve(returns.correct, returns.tangent, here, direction, **lengths, straight=STRAIGHT)
     for here, there, tangent, _, length in steps:
         if orbit.period % 2 == 0 and linear_algebra.dot(returns.halving(here), returns.halving(there)) < 0.0:
-            half = ReturnMap(parameters, orbit.period // 2)
+            half = ReturnMap(orbit.parameters, orbit.period // 2, parameter)
             unknown = half.newton(0.5 * (here + there))
             return orbits, bifurcations, "period halving", None if unknown is None else half.describe(unknown)
         orbits.append(returns.describe(there))
-        bifurcations += bifurcations_between(parameters, *orbits[-2:])
-        if not limits[0] <= orbits[-1].acceleration <= limits[1]:
+        bifurcations += bifurcations_between(returns, *orbits[-2:])
+        if not limits[0] <= orbits[-1].value(parameter) <= limits[1]:
             return orbits, bifurcations, "limit", None
         advance = linear_algebra.dot(beginning - here, tangent)
         aside = linear_algebra.length(beginning - here - advance[:, None] * tangent)
@@ -110,18 +163,9 @@ def _follow(parameters, orbit, limits, direction):
     return orbits, bifurcations, "step", None
 
 
-def is_orbit(parameters: np.ndarray, orbit: Orbit) -> bool:
-    """Whether an Orbit is one of `parameters`, a row of a table; its amplitude is ignored."""
-    returns = ReturnMap(parameters, orbit.period)
-    given = returns.scaled(orbit.acceleration, orbit.state)
-    solved = returns.newton(given)
-    return solved is not None and bool(linear_algebra.length(solved - given) < SAME_ORBIT)
-
-
-def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) -> list[Bifurcation]:
+def bifurcations_between(returns: ReturnMap, before: Orbit, after: Orbit) -> list[Bifurcation]:
     """Bifurcations between two neighbouring orbits of a branch, in the order in which they are met."""
-    returns = ReturnMap(parameters, before.period)
-    begin, end = (returns.scaled(orbit.acceleration, orbit.state) for orbit in (before, after))
+    begin, end = returns.unknown(before), returns.unknown(after)
     direction = (end - begin) / linear_algebra.length(end - begin)
 
     def at(part: float) -> Orbit | None:
@@ -135,12 +179,12 @@ def bifurcations_between(parameters: np.ndarray, before: Orbit, after: Orbit) ->
             if abs(test(orbit)) > JUMP * abs(test(after) - test(before)):
                 continue  # the multipliers jump at a grazing
             multiplier = min(orbit.multipliers, key=lambda value, sign=sign: abs(value - sign))
-            bifurcations.append((part, Bifurcation(kind, orbit, multiplier.real)))
+            bifurcations.append((part, Bifurcation(kind, orbit, multiplier.real, returns.parameter)))
     if before.impacts != after.impacts:
         part = _zero(at, lambda orbit: 0.5 - (orbit.impacts != before.impacts))
         if part is not None:
             orbit = at(part)
-            bifurcations.append((part, Bifurcation("grazing", orbit, orbit.multipliers[0].real)))
+            bifurcations.append((part, Bifurcation("grazing", orbit, orbit.multipliers[0].real, returns.parameter)))
     return [bifurcation for _, bifurcation in sorted(bifurcations, key=lambda item: item[0])]
 
 
@@ -159,23 +203,22 @@ def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -
         return None
 
 
-def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbit | None:
+def find_doubled_orbit(bifurcation: Bifurcation) -> Orbit | None:
     """An orbit of twice the period at the distance DOUBLED from a period doubling, along the eigenvector of -1.
 
-    parameters : a row of a table; its amplitude is ignored
-    Returns None where Newton's iteration finds no orbit.
+    None where Newton's iteration finds no orbit.
 
     Examples
     --------
-    >>> row = parameter_table(Conveyor())
-    >>> branch = follow_branch(row, periodic_orbit(Conveyor(acceleration=40.0), Start(z=3e-4)), (20.0, 60.0))
-    >>> doubled = find_doubled_orbit(row, branch.bifurcations[-1])
+    >>> orbit = periodic_orbit(Conveyor(acceleration=54.0), Start(z=3e-4))
+    >>> (doubling,) = continue_orbit(orbit, "acceleration", (53.9, 54.5)).bifurcations
+    >>> doubled = find_doubled_orbit(doubling)
     >>> doubled.period, doubled.stable
     (2, True)
     """
     orbit = bifurcation.orbit
-    single, double = ReturnMap(parameters, orbit.period), ReturnMap(parameters, 2 * orbit.period)
-    unknown = single.scaled(orbit.acceleration, orbit.state)
+    single, double = (ReturnMap(orbit.parameters, n * orbit.period, bifurcation.parameter) for n in (1, 2))
+    unknown = single.unknown(orbit)
     matrix = single.residual(unknown)[1] + np.eye(2)
     nearest = min(linear_algebra.eigenvalues(matrix), key=lambda value: abs(value + 1.0))
     along = np.append(linear_algebra.eigenvector(matrix, nearest.real), 0.0)
@@ -183,23 +226,20 @@ def find_doubled_orbit(parameters: np.ndarray, bifurcation: Bifurcation) -> Orbi
     return None if corrected is None else double.describe(corrected)
 
 
-def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
-    """Whether an orbit, at any of its phases, lies on a branch.
-
-    parameters : a row of a table, the conveyor of the branch and the orbit; its amplitude is ignored
+def on_branch(branch: Branch, orbit: Orbit) -> bool:
+    """Whether an orbit of the same conveyor, at any of its phases, lies on a branch.
 
     Examples
     --------
-    >>> row, start = parameter_table(Conveyor()), Start(z=3e-4)
-    >>> branch = follow_branch(row, periodic_orbit(Conveyor(acceleration=40.0), start), (39.0, 41.0))
-    >>> on_branch(row, branch, periodic_orbit(Conveyor(acceleration=40.5), start))
+    >>> orbits = [periodic_orbit(Conveyor(acceleration=value), Start(z=3e-4)) for value in (40.0, 40.5)]
+    >>> on_branch(follow_branch(orbits[0], "acceleration", (39.0, 41.0)), orbits[1])
     True
     """
     if branch.orbits[0].period != orbit.period:
         return False
-    returns = ReturnMap(parameters, orbit.period)
-    strobes = returns.strobes(returns.scaled(orbit.acceleration, orbit.state))
-    points = np.array([returns.scaled(other.acceleration, other.state) for other in branch.orbits])
+    returns = ReturnMap(branch.orbits[0].parameters, orbit.period, branch.parameter)
+    strobes = returns.strobes(returns.unknown(orbit))
+    points = np.array([returns.unknown(other) for other in branch.orbits])
     above = points[:, 2] > strobes[0, 2]
     for i in np.flatnonzero(above[1:] != above[:-1]):
         part = (strobes[0, 2] - points[i, 2]) / (points[i + 1, 2] - points[i, 2])
@@ -212,14 +252,13 @@ def on_branch(parameters: np.ndarray, branch: Branch, orbit: Orbit) -> bool:
 
 
 def explore_bifurcations(
-    parameters: np.ndarray, seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int, most: int
+    seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int, most: int
 ) -> list[Branch]:
-    """All branches that are connected with the seeds through period doublings, each once.
+    """All branches in the amplitude that are connected with the seeds through period doublings, each once.
 
     Parameters
     ----------
-    parameters : a row of a table; its amplitude is ignored
-    seeds : orbits to begin with
+    seeds : orbits to begin with, of conveyors that differ in the amplitude alone
     limits : lowest and highest â, m/s²
     max_period : longest period, excitation cycles
     most : number of orbits, after which no further branch is followed
@@ -227,7 +266,7 @@ def explore_bifurcations(
     Examples
     --------
     >>> orbit = periodic_orbit(Conveyor(acceleration=54.0), Start(z=3e-4))
-    >>> branches = explore_bifurcations(parameter_table(Conveyor()), [orbit], (53.9, 54.4), max_period=2, most=1000)
+    >>> branches = explore_bifurcations([orbit], (53.9, 54.4), max_period=2, most=1000)
     >>> [branch.orbits[0].period for branch in branches]
     [1, 2]
     """
@@ -235,13 +274,13 @@ def explore_bifurcations(
     waiting = list(seeds)
     while waiting and sum(len(branch.orbits) for branch in branches) < most:
         orbit = waiting.pop(0)
-        if any(on_branch(parameters, branch, orbit) for branch in branches):
+        if any(on_branch(branch, orbit) for branch in branches):
             continue
-        branch = follow_branch(parameters, orbit, limits)
+        branch = follow_branch(orbit, "acceleration", limits)
         branches.append(branch)
         if branch.parent is not None:
             waiting.append(branch.parent)
         if 2 * orbit.period <= max_period:
             doublings = [b for b in branch.bifurcations if b.kind == "period_doubling"]
-            waiting += [new for b in doublings if (new := find_doubled_orbit(parameters, b)) is not None]
+            waiting += [new for b in doublings if (new := find_doubled_orbit(b)) is not None]
     return branches

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ...packing import replace_parameters
 from .continuation import Bifurcation, doubling_test
 from .periodic_orbits import orbit_near, settled_orbit
 
@@ -10,7 +11,7 @@ RESOLVED = 1e-6  # of 1 + μ at a doubling of the cascade: six digits of its dis
 SECANT_STEPS = 12  # after which a doubling of the cascade is not resolved
 
 
-def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurcation) -> list[Bifurcation]:
+def doubling_cascade(first: Bifurcation, second: Bifurcation) -> list[Bifurcation]:
     """Two successive period doublings and the doublings behind them, as far as double precision resolves them.
 
     The distance between doublings shrinks by Feigenbaum's ratio each time. Halfway to the next doubling the doubled
@@ -19,28 +20,30 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
 
     Parameters
     ----------
-    parameters : a row of a table; its amplitude is ignored
-    first, second : period doublings, the second one of the doubled orbit
+    first, second : period doublings in the amplitude, the second one of the doubled orbit
 
     Examples
     --------
-    >>> conveyor = Conveyor(acceleration=47.2, stiffness=5e7)
-    >>> row, orbit = parameter_table(conveyor), periodic_orbit(conveyor, Start(z=3e-4))
-    >>> (first,) = continue_orbit(conveyor, orbit, low=46.9, high=47.5).bifurcations
-    >>> (second,) = continue_orbit(conveyor, find_doubled_orbit(row, first), low=46.9, high=57.0).bifurcations
-    >>> cascade = doubling_cascade(row, first, second)
+    >>> orbit = periodic_orbit(Conveyor(acceleration=47.2, stiffness=5e7), Start(z=3e-4))
+    >>> (first,) = continue_orbit(orbit, "acceleration", (46.9, 47.5)).bifurcations
+    >>> (second,) = continue_orbit(find_doubled_orbit(first), "acceleration", (46.9, 57.0)).bifurcations
+    >>> cascade = doubling_cascade(first, second)
     >>> [(doubling.orbit.period, round(doubling.orbit.acceleration, 3)) for doubling in cascade]  # m/s²
     [(1, 47.392), (2, 56.401), (4, 58.354)]
     """
     cascade = [first, second]
+
+    def at(acceleration):
+        return replace_parameters(first.orbit.parameters, acceleration=acceleration)
+
     while True:
         last = cascade[-1].orbit
         gap = (last.acceleration - cascade[-2].orbit.acceleration) / FEIGENBAUM
         period = 2 * last.period
-        before = settled_orbit(parameters, last.acceleration + 0.5 * gap, last.state, (period,), 30 * period)
+        before = settled_orbit(at(last.acceleration + 0.5 * gap), last.state, (period,), 30 * period)
         if before is None:
             return cascade
-        here = orbit_near(parameters, last.acceleration + 0.6 * gap, before.state, period)
+        here = orbit_near(at(last.acceleration + 0.6 * gap), before.state, period)
         for _ in range(SECANT_STEPS):
             if here is None or abs(doubling_test(here)) <= RESOLVED:
                 break
@@ -48,12 +51,14 @@ def doubling_cascade(parameters: np.ndarray, first: Bifurcation, second: Bifurca
             part = doubling_test(here) / (doubling_test(before) - doubling_test(here))
             acceleration = here.acceleration + part * (here.acceleration - before.acceleration)
             state = here.state + part * (here.state - before.state)
-            before, here = here, orbit_near(parameters, acceleration, state, period)
+            before, here = here, orbit_near(at(acceleration), state, period)
             if abs(acceleration - last.acceleration - gap) > 0.5 * abs(gap) or acceleration == before.acceleration:
                 return cascade
         if here is None or abs(doubling_test(here)) > RESOLVED:
             return cascade
-        cascade.append(Bifurcation("period_doubling", here, min(value.real for value in here.multipliers)))
+        cascade.append(
+            Bifurcation("period_doubling", here, min(value.real for value in here.multipliers), "acceleration")
+        )
 
 
 def doubling_ratios(amplitudes: np.ndarray) -> np.ndarray:

@@ -10,28 +10,31 @@ from typing import NamedTuple
 import numpy as np
 
 from ... import linear_algebra
-from ...arguments import LARGEST_COORDINATE, LONGEST_PERIOD, check_array, check_count, check_number
-from ...packing import as_rows, check_rows
-from ...parameters import RANGES
+from ...arguments import LARGEST_COORDINATE, MOST_CYCLES, check_array, check_count, check_type
+from ...packing import AT_REST, as_rows, as_table, check_row
+from ...parameters import PARAMETERS
 from ...solver import contact, contact_law
-from ...solver.model import ACCELERATION, FREQUENCY
+from ...solver.model import FREQUENCY, Conveyor, Start, unpack
 from ...solver.status import OK
 from .. import stroboscopic_map
 from ..dimensionless_groups import length_and_speed_units
 from .newton import newton
 
 ORBIT_TOLERANCE = 1e-13
-AMPLITUDE_STEP = 1e-6  # m/s², of the central difference ∂P/∂â
+LONGEST_PERIOD = 1024  # excitation cycles
+SAME_ORBIT = 1e-5  # orbits this close are one, in scaled unknowns
+UNITS_IN_VALUE = 40.0  # units of a parameter's scale in its value: the paper's amplitude in m/s²
+STEP = 1e-6  # of the central difference by the parameter, in its unit
 CONVERGED = 1e-10  # of Newton's last correction, in scaled unknowns
 STAGNANT = 1e-6  # corrections below this that no longer shrink are round-off
 
 
 class Orbit(NamedTuple):
-    """A periodic orbit of the vertical motion at one amplitude."""
+    """A periodic orbit of the vertical motion of one conveyor."""
 
-    acceleration: float  # m/s²
+    parameters: np.ndarray  # of the conveyor, a row of a table
     state: np.ndarray  # (δ in m, v in m/s) at the phase ψ0
-    period: int  # excitation cycles
+    period: int  # excitation cycles; of an orbit from `periodic_orbit`, the least one
     multipliers: tuple[complex, complex]  # Floquet multipliers, the larger modulus first
     determinant: float  # their product, from the monodromy matrix, or from the trace formula where rounding hides it
     impacts: int  # per period
@@ -43,53 +46,81 @@ class Orbit(NamedTuple):
         """Whether both multipliers lie inside the unit circle."""
         return abs(self.multipliers[0]) < 1.0
 
+    @property
+    def acceleration(self) -> float:
+        """The amplitude, m/s²."""
+        return self.value("acceleration")
 
-def with_amplitude(parameters: np.ndarray, acceleration: float) -> np.ndarray:
-    """Packed parameters, shape (16,), with another amplitude (m/s²)."""
-    row = parameters.copy()
-    row[ACCELERATION] = acceleration
-    return row
+    @property
+    def conveyor(self) -> Conveyor:
+        """The conveyor of the orbit."""
+        return unpack(as_rows(self.parameters))[0]
+
+    def value(self, parameter: str) -> float:
+        """The value of a parameter of the conveyor."""
+        return self.parameters[parameter].item()
+
+    def __repr__(self) -> str:
+        stability = "stable" if self.stable else "unstable"
+        return f"Orbit({self.acceleration:.6g} m/s², period {self.period}, {stability}, {self.impacts} impacts)"
 
 
 class ReturnMap:
-    """The n-th power of the stroboscopic map and its fixed points, in scaled unknowns u = (δ, Y, â).
+    """The n-th power of the stroboscopic map and its fixed points, in scaled unknowns u = (δ, Y, λ).
 
-    The units are g/ω² (m), g/ω (m/s) and 1 m/s², which makes the three comparable. A map that fails gives NaN.
+    λ is a parameter of the conveyor, by default the amplitude. The units are g/ω² (m), g/ω (m/s) and 1 m/s², which
+    makes the three comparable; the unit of any other parameter is a share of its value. A map that fails gives NaN.
     """
 
-    def __init__(self, parameters: np.ndarray, period: int):
+    def __init__(self, parameters: np.ndarray, period: int, parameter: str = "acceleration"):
         self.parameters = parameters = as_rows(parameters).copy()
-        self.period = period
-        self.constants = contact.constants(parameters, ORBIT_TOLERANCE)
-        self.unit = np.array([*length_and_speed_units(parameters), 1.0])
+        self.period, self.parameter, self.column = period, parameter, PARAMETERS.index(parameter)
+        scale = 1.0
+        if parameter != "acceleration":
+            scale = (abs(parameters[self.column]) or 1.0) / UNITS_IN_VALUE
+        self.unit = np.array([*length_and_speed_units(parameters), scale])
+        self.known = contact.constants(parameters, ORBIT_TOLERANCE)
 
-    def scaled(self, acceleration: float, state: np.ndarray) -> np.ndarray:
-        """The unknowns of a state (δ in m, v in m/s) at an amplitude."""
-        return (
-            np.array([state[0], contact_law.smooth_speed(self.constants, state[0], state[1]), acceleration]) / self.unit
-        )
+    def row(self, value: float) -> np.ndarray:
+        """Packed parameters, shape (16,), with a value of λ in its unit."""
+        row = self.parameters.copy()
+        row[self.column] = value * self.unit[2]
+        return row
+
+    def constants(self, value: float) -> contact.Constants:
+        """The constants of the contact for a value of λ in its unit; the amplitude does not change those used here."""
+        return self.known if self.parameter == "acceleration" else contact.constants(self.row(value), ORBIT_TOLERANCE)
+
+    def scaled(self, value: float, state: np.ndarray) -> np.ndarray:
+        """The unknowns of a state (δ in m, v in m/s) at a value of λ in SI units."""
+        constants = self.constants(value / self.unit[2])
+        return np.array([state[0], contact_law.smooth_speed(constants, state[0], state[1]), value]) / self.unit
+
+    def unknown(self, orbit: Orbit) -> np.ndarray:
+        """The unknowns of an Orbit."""
+        return self.scaled(orbit.value(self.parameter), orbit.state)
 
     def state(self, unknown: np.ndarray) -> np.ndarray:
         """The state (δ in m, v in m/s) of unknowns."""
         delta, y, _ = unknown * self.unit
-        return np.array([delta, contact_law.speed_of_approach(self.constants, delta, y)])
+        return np.array([delta, contact_law.speed_of_approach(self.constants(unknown[2]), delta, y)])
 
     def strobes(self, unknown: np.ndarray) -> np.ndarray:
         """Unknowns after 1 … n cycles, shape (n, 3)."""
-        row = with_amplitude(self.parameters, unknown[2])
+        row = self.row(unknown[2])
         _, states, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, self.state(unknown), self.period)
-        return np.array([self.scaled(unknown[2], state) for state in states])
+        return np.array([self.scaled(unknown[2] * self.unit[2], state) for state in states])
 
     def linearised(self, unknown: np.ndarray, airborne: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(δ, Y) after n cycles in their units, the matrices (SI units) and the features of all cycles.
 
         airborne : time since the last separation, s
         """
-        row, state = with_amplitude(self.parameters, unknown[2]), self.state(unknown)
+        row, state = self.row(unknown[2]), self.state(unknown)
         status, matrices, features = stroboscopic_map.monodromy(row, ORBIT_TOLERANCE, state, self.period, airborne)
         if status != OK:
             return np.full(2, np.nan), np.full((self.period, 2, 2), np.nan), features
-        return self.scaled(unknown[2], state)[:2], matrices, features
+        return self.scaled(unknown[2] * self.unit[2], state)[:2], matrices, features
 
     def residual(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """P(X) - X, shape (2,), and its derivative by (δ, Y), shape (2, 2), scaled."""
@@ -98,17 +129,17 @@ class ReturnMap:
         return image - unknown[:2], matrix * self.unit[:2] / self.unit[:2, None] - np.eye(2)
 
     def slope(self, unknown: np.ndarray) -> np.ndarray:
-        """Derivative of P by â, scaled, shape (2,)."""
-        ahead = np.array([0.0, 0.0, AMPLITUDE_STEP])
-        return (self.strobes(unknown + ahead)[-1, :2] - self.strobes(unknown - ahead)[-1, :2]) / (2.0 * AMPLITUDE_STEP)
+        """Derivative of P by λ, scaled, shape (2,)."""
+        ahead = np.array([0.0, 0.0, STEP])
+        return (self.strobes(unknown + ahead)[-1, :2] - self.strobes(unknown - ahead)[-1, :2]) / (2.0 * STEP)
 
     def system(self, unknown: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """P(X) - X, shape (2,), and its derivative by (δ, Y, â), shape (2, 3), scaled."""
+        """P(X) - X, shape (2,), and its derivative by (δ, Y, λ), shape (2, 3), scaled."""
         residual, jacobian = self.residual(unknown)
         return residual, np.column_stack([jacobian, self.slope(unknown)])
 
     def newton(self, guess: np.ndarray) -> np.ndarray | None:
-        """The fixed point that Newton's iteration at constant â finds from a guess, or None."""
+        """The fixed point that Newton's iteration at constant λ finds from a guess, or None."""
         # Steps of a long unstable orbit end in round-off, which it amplifies.
         limits = {"converged": CONVERGED, "iterations": 30, "largest": 1e3, "stagnant": STAGNANT}
         solved = newton(lambda state: self.residual(np.append(state, guess[2])), guess[:2], **limits)
@@ -136,7 +167,8 @@ class ReturnMap:
         matrix = linear_algebra.chain(matrices)
         # The trace formula of the flow gives determinants that are lost in rounding.
         hidden = [stroboscopic_map.hides_determinant(one) for one in matrices]
-        contractions = np.exp(contact_law.log_contraction(self.constants, features[:, stroboscopic_map.DAMPER_TIME]))
+        row, constants = self.row(unknown[2]), self.constants(unknown[2])
+        contractions = np.exp(contact_law.log_contraction(constants, features[:, stroboscopic_map.DAMPER_TIME]))
         determinants = np.where(hidden, contractions, linear_algebra.determinant(matrices))
         trace, determinant = float(np.trace(matrix)), float(np.prod(determinants))
         root = cmath.sqrt(0.25 * trace * trace - determinant)
@@ -144,80 +176,119 @@ class ReturnMap:
         second = determinant / first if first != 0.0 else 0.0j
         flights = features[:, stroboscopic_map.LONGEST_FLIGHT]
         return Orbit(
-            acceleration=float(unknown[2]),
+            parameters=as_table(row),
             state=self.state(unknown),
             period=self.period,
             multipliers=(first, second),
             determinant=determinant,
             impacts=int(features[:, stroboscopic_map.IMPACTS].sum()),
             contact_time=float(features[:, stroboscopic_map.CONTACT_TIME].sum()),
-            longest_flight=float(flights.max() / (1.0 / self.parameters[FREQUENCY])),
+            longest_flight=float(flights.max() / (1.0 / row[FREQUENCY])),
         )
 
 
-def find_orbit(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
-    """The orbit of `period` cycles that Newton's iteration finds from `state`, or None.
+def orbit_near(row: np.ndarray, state: np.ndarray, period: int) -> Orbit | None:
+    """The orbit of `period` cycles that Newton's iteration finds from a state (δ in m, v in m/s), or None.
 
     An orbit whose period divides `period` is an orbit of `period` cycles, too.
 
-    Parameters
-    ----------
-    parameters : a row of a table; its amplitude is ignored
-    acceleration : amplitude, m/s²
-    state : δ (m) and v (m/s) at the phase ψ0, shape (2,)
-    period : excitation cycles
-
-    Examples
-    --------
-    >>> orbit = find_orbit(parameter_table(Conveyor()), 40.0, np.array([-5.5e-4, 0.02]), 1)
-    >>> orbit.stable, orbit.impacts, round(abs(orbit.multipliers[0]), 4)
-    (True, 1, 0.7254)
+    row : of a table, or packed, shape (16,)
     """
-    (parameters,), _ = check_rows(parameters)
-    acceleration = check_number("acceleration", acceleration, *RANGES["acceleration"], "m/s²")
-    check_count("period", period, 1, LONGEST_PERIOD)
-    state = check_array("state", state, -LARGEST_COORDINATE, LARGEST_COORDINATE)
-    if state.shape != (2,):
-        raise ValueError(f"state must be δ (m) and v (m/s), got the shape {state.shape}")
-    return orbit_near(parameters, acceleration, state, period)
-
-
-def orbit_near(parameters: np.ndarray, acceleration: float, state: np.ndarray, period: int) -> Orbit | None:
-    """`find_orbit` without checks of its arguments; None, too, for arguments that are not finite."""
-    returns = ReturnMap(parameters, period)
-    unknown = returns.newton(returns.scaled(acceleration, state))
+    returns = ReturnMap(row, period)
+    unknown = returns.newton(returns.scaled(float(returns.parameters[returns.column]), state))
     return None if unknown is None else returns.describe(unknown)
 
 
-def settled_orbit(
-    parameters: np.ndarray, acceleration: float, state: np.ndarray, periods: Iterable[int], cycles: int
-) -> Orbit | None:
-    """The stable orbit that a trajectory from `state` ends in, or None.
+def settled_orbit(row: np.ndarray, state: np.ndarray, periods: Iterable[int], cycles: int) -> Orbit | None:
+    """The stable orbit that a trajectory ends in, the first of some `periods`, or None; arguments as in `orbit_near`.
 
-    Parameters
-    ----------
-    parameters : a row of a table; its amplitude is ignored
-    acceleration : amplitude, m/s²
-    state : δ (m) and v (m/s)
-    periods : the periods to try, in this order
     cycles : excitation cycles that bring the trajectory near its orbit; Newton's iteration does the rest
-
-    Examples
-    --------
-    >>> row = parameter_table(Conveyor(), z0=3e-4)
-    >>> orbit = settled_orbit(row, 57.0, initial_states(row[None], 1e-10)[0], periods=(1, 2), cycles=1000)
-    >>> orbit.period, orbit.stable
-    (2, True)
     """
-    (parameters,), _ = check_rows(parameters)
-    row, end = with_amplitude(parameters, acceleration), np.array(state, dtype=np.float64)
+    row, end = as_rows(row), np.array(state, dtype=np.float64)
     status, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, end, cycles)
     if status != OK:
         return None
-    unit = np.array(length_and_speed_units(parameters))
+    unit = np.array(length_and_speed_units(row))
     for period in periods:
-        if np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
-            orbit = orbit_near(parameters, acceleration, end, period)
+        if period < cycles and np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
+            orbit = orbit_near(row, end, period)
             if orbit is not None and orbit.stable and np.abs((orbit.state - end) / unit).max() < 0.1:
                 return orbit
     return None
+
+
+def check_orbit(name: str, orbit: object) -> Orbit:
+    """`orbit`; TypeError or ValueError, with the `name` of the argument, unless it is an Orbit of its conveyor."""
+    check_type(name, orbit, Orbit)
+    check_row(f"{name}.parameters", orbit.parameters)
+    check_count(f"{name}.period", orbit.period, 1, LONGEST_PERIOD)
+    check_count(f"{name}.impacts", orbit.impacts, 0, LONGEST_PERIOD * MOST_CYCLES)
+    if np.shape(orbit.multipliers) != (2,) or np.asarray(orbit.multipliers).dtype.kind not in "iufc":
+        raise ValueError(f"{name}.multipliers must be two numbers, got {orbit.multipliers!r}")
+    if check_array(f"{name}.state", orbit.state, -LARGEST_COORDINATE, LARGEST_COORDINATE).shape != (2,):
+        raise ValueError(f"{name}.state must be δ (m) and v (m/s), got {orbit.state!r}")
+    returns = ReturnMap(orbit.parameters, orbit.period)
+    given = returns.unknown(orbit)
+    solved = returns.newton(given)
+    if solved is None or not linear_algebra.length(solved - given) < SAME_ORBIT:
+        raise ValueError(f"{name} is no orbit of its conveyor; find one with periodic_orbit")
+    return orbit
+
+
+def least_period(orbit: Orbit) -> int:
+    """The number of cycles after which an orbit is first back, a divisor of its period."""
+    returns = ReturnMap(orbit.parameters, orbit.period)
+    unknown = returns.unknown(orbit)
+    distances = linear_algebra.length(returns.strobes(unknown) - unknown)
+    divisors = (n for n in range(1, orbit.period) if orbit.period % n == 0)
+    return next((n for n in divisors if distances[n - 1] < SAME_ORBIT), orbit.period)
+
+
+def periodic_orbit(
+    conveyor: Conveyor | np.ndarray,
+    start: Start | np.ndarray = AT_REST,
+    *,
+    period: int | Iterable[int] = 1,
+    transient: int = 1000,
+) -> Orbit | None:
+    """A periodic orbit of the vertical motion, from the end of a trajectory.
+
+    Parameters
+    ----------
+    conveyor : a Conveyor, or a row of a table, whose initial condition is the default of `start`
+    start : where the trajectory begins: a Start, or a state (δ in m, v in m/s) at the phase ψ0, shape (2,)
+    period : excitation cycles, 1 to 1024. Newton's iteration looks for an orbit with one period, which may be unstable.
+        With several periods, such as range(1, 9), the trajectory must end in a stable orbit with one of them
+    transient : excitation cycles of the trajectory, up to 1e6; 0 begins Newton's iteration at `start`, which unstable
+        orbits need
+
+    Returns
+    -------
+    Orbit with its Floquet multipliers, at the phase ψ0, with its least period; None where there is none
+
+    Examples
+    --------
+    >>> orbit = periodic_orbit(Conveyor(acceleration=40.0), Start(z=3e-4))
+    >>> orbit.impacts, orbit.stable, round(abs(orbit.multipliers[0]), 4)
+    (1, True, 0.7254)
+    >>> periodic_orbit(Conveyor(acceleration=57.0), Start(z=3e-4), period=range(1, 9))
+    Orbit(57 m/s², period 2, stable, 2 impacts)
+    """
+    transient = check_count("transient", transient, 0, MOST_CYCLES)
+    several = isinstance(period, Iterable) and not isinstance(period, str)
+    periods = [check_count("period", one, 1, LONGEST_PERIOD) for one in (period if several else [period])]
+    if isinstance(start, Start):
+        row = check_row("conveyor", conveyor, start)
+        (state,) = stroboscopic_map.initial_states(row[None], ORBIT_TOLERANCE)
+    else:
+        row = check_row("conveyor", conveyor)
+        state = check_array("start", start, -LARGEST_COORDINATE, LARGEST_COORDINATE).copy()
+        if state.shape != (2,):
+            raise ValueError(f"start must be a Start, or δ (m) and v (m/s), got the shape {state.shape}")
+    if several:
+        return settled_orbit(row, state, periods, transient)
+    stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, state, transient)
+    orbit = orbit_near(row, state, *periods)
+    if orbit is not None and (least := least_period(orbit)) < orbit.period:
+        orbit = orbit_near(row, orbit.state, least)
+    return orbit

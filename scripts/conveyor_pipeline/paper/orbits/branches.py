@@ -70,7 +70,7 @@ def branch_rows(parameters: np.ndarray, branches: list[Branch]) -> list[dict]:
     for number, branch in enumerate(branches):
         returns = ReturnMap(parameters, branch.orbits[0].period)
         for point, orbit in enumerate(branch.orbits):
-            unknowns = returns.strobes(returns.scaled(orbit.acceleration, orbit.state))
+            unknowns = returns.strobes(returns.unknown(orbit))
             for cycle, unknown in enumerate(unknowns, start=1):
                 delta, v = returns.state(unknown)
                 place = {"branch": number, "point": point, "cycle": cycle, "stable": orbit.stable}
@@ -95,7 +95,7 @@ def bifurcation_rows(branches: list[Branch]) -> list[dict]:
     return rows
 
 
-def explore_branches(parameters: np.ndarray, orbits: list[Orbit], settings: dict) -> list[Branch]:
+def explore_branches(orbits: list[Orbit], settings: dict) -> list[Branch]:
     """All branches that are connected with some orbits, each once.
 
     Orbits from a search are explored in the order of their periods. An orbit on a doubled branch then lies on a branch
@@ -104,16 +104,16 @@ def explore_branches(parameters: np.ndarray, orbits: list[Orbit], settings: dict
     """
     options = tuple(settings["limits"]), settings["max_period"]
     if settings["seeds"]:
-        return explore_bifurcations(parameters, orbits, *options, MOST_ORBITS)
+        return explore_bifurcations(orbits, *options, MOST_ORBITS)
     branches = []
     for period in sorted({orbit.period for orbit in orbits}):
         new = [
             orbit
             for orbit in orbits
-            if orbit.period == period and not any(on_branch(parameters, branch, orbit) for branch in branches)
+            if orbit.period == period and not any(on_branch(branch, orbit) for branch in branches)
         ]
         left = MOST_ORBITS - sum(len(branch.orbits) for branch in branches)
-        branches += explore_bifurcations(parameters, new, *options, left)
+        branches += explore_bifurcations(new, *options, left)
     return branches
 
 
@@ -121,7 +121,7 @@ def is_doubling(bifurcation: Bifurcation) -> bool:
     return bifurcation.kind == "period_doubling"
 
 
-def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orbit) -> list[Bifurcation]:
+def first_doublings(branches: list[Branch], jumping: Orbit) -> list[Bifurcation]:
     """The first two period doublings of the orbit `jumping` with growing amplitude.
 
     Raises
@@ -130,7 +130,7 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
         if the branches do not reach them
     """
     begin = jumping.acceleration
-    own = [branch for branch in branches if on_branch(parameters, branch, jumping)]
+    own = [branch for branch in branches if on_branch(branch, jumping)]
     first = next(
         (b for branch in own for b in branch.bifurcations if is_doubling(b) and b.orbit.acceleration > begin), None
     )
@@ -140,13 +140,13 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
             f"the jumping orbit at {begin:g} m/s² (the last of orbits.seeds) does not double its period up to "
             f"{end:g} m/s²; raise the upper value of orbits.limits beyond its first period doubling"
         )
-    if (double := find_doubled_orbit(parameters, first)) is None:
+    if (double := find_doubled_orbit(first)) is None:
         raise JobError(
             f"no orbit of twice the period was found at the doubling at {first.orbit.acceleration:g} m/s²; choose "
             "another orbit as the last of orbits.seeds"
         )
     span = (first.orbit.acceleration - 1.0, first.orbit.acceleration + 20.0)
-    following = follow_branch(parameters, double, span)
+    following = follow_branch(double, "acceleration", span)
     second = min(filter(is_doubling, following.bifurcations), key=lambda b: b.orbit.acceleration, default=None)
     if second is None:
         raise JobError(
@@ -156,19 +156,17 @@ def first_doublings(parameters: np.ndarray, branches: list[Branch], jumping: Orb
     return [first, second]
 
 
-def find_cascade(
-    parameters: np.ndarray, branches: list[Branch], orbits: list[Orbit], settings: dict
-) -> list[Bifurcation]:
+def find_cascade(branches: list[Branch], orbits: list[Orbit], settings: dict) -> list[Bifurcation]:
     """The doubling cascade of the config's last seed or of the first jumping orbit; an empty list if there is none."""
     if settings["seeds"]:
-        return doubling_cascade(parameters, *first_doublings(parameters, branches, orbits[-1]))
+        return doubling_cascade(*first_doublings(branches, orbits[-1]))
     jumps = [orbit for orbit in orbits if orbit.longest_flight >= LONG_FLIGHT]
     for orbit in sorted(jumps, key=lambda orbit: (orbit.period, orbit.acceleration)):
         try:
-            doublings = first_doublings(parameters, branches, orbit)
+            doublings = first_doublings(branches, orbit)
         except JobError:
             continue
-        return doubling_cascade(parameters, *doublings)
+        return doubling_cascade(*doublings)
     return []
 
 
@@ -190,8 +188,8 @@ def make(settings: dict) -> dict[str, dict[str, np.ndarray]]:
     """The columns of the three tables, by their kinds, for the section `orbits` of the config."""
     parameters = grid.row_of(settings["model"])
     orbits = seeds(parameters, settings)
-    branches = explore_branches(parameters, orbits, settings)
-    cascade = find_cascade(parameters, branches, orbits, settings)
+    branches = explore_branches(orbits, settings)
+    cascade = find_cascade(branches, orbits, settings)
     rows = {
         "branches": branch_rows(parameters, branches),
         "folds_and_doublings": bifurcation_rows(branches),

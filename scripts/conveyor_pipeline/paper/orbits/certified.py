@@ -13,9 +13,9 @@ import pandas as pd
 from flint import arb
 from pyarrow import Field
 
-from conveyor import Bifurcation, Orbit, find_doubled_orbit
-from conveyor.analysis.bifurcations.continuation import SAME_ORBIT, follow_branch
-from conveyor.analysis.bifurcations.periodic_orbits import ReturnMap, find_orbit
+from conveyor import Bifurcation, Orbit, find_doubled_orbit, replace_parameters
+from conveyor.analysis.bifurcations.continuation import follow_branch
+from conveyor.analysis.bifurcations.periodic_orbits import SAME_ORBIT, ReturnMap, orbit_near
 from conveyor.certificates import (
     Accuracy,
     Horseshoe,
@@ -207,9 +207,10 @@ def doubled_lines(
     for row in cascade.itertuples():
         period = 2 * int(row.period)
         if longest[0] < period <= longest[1] and limits[0] < row.acceleration < limits[1]:
-            orbit = find_orbit(parameters, row.acceleration, np.array([row.delta, row.v]), int(row.period))
-            new = find_doubled_orbit(parameters, Bifurcation("period_doubling", orbit, -1.0))
-            branch = follow_branch(parameters, new, limits).orbits
+            here = replace_parameters(parameters, acceleration=row.acceleration)
+            orbit = orbit_near(here, np.array([row.delta, row.v]), int(row.period))
+            new = find_doubled_orbit(Bifurcation("period_doubling", orbit, -1.0, "acceleration"))
+            branch = follow_branch(new, "acceleration", limits).orbits
             lines.append(Line(period, np.array([[*orbit.state, orbit.acceleration] for orbit in branch])))
     return lines
 

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from conveyor import Orbit, initial_states, replace_parameters
+from conveyor import Orbit, initial_states, periodic_orbit, replace_parameters
 from conveyor.analysis.attractors.sampling import sampled_initial_conditions
-from conveyor.analysis.bifurcations.periodic_orbits import ORBIT_TOLERANCE, settled_orbit
+from conveyor.analysis.bifurcations.periodic_orbits import ORBIT_TOLERANCE
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.rule_log import JobError
 
@@ -26,9 +26,8 @@ def follow_seeds(settings: dict) -> list[Orbit]:
     """
     orbits = []
     for seed in settings["seeds"]:
-        row = grid.product({name: [value] for name, value in seed.items()}, settings["model"])[1]
-        state = initial_states(row, ORBIT_TOLERANCE)[0]
-        orbit = settled_orbit(row[0], seed["acceleration"], state, range(1, settings["max_period"] + 1), CYCLES)
+        (row,) = grid.product({name: [value] for name, value in seed.items()}, settings["model"])[1]
+        orbit = periodic_orbit(row, period=range(1, settings["max_period"] + 1), transient=CYCLES)
         if orbit is None:
             raise JobError(
                 f"orbits.seeds: {seed} leads to no stable orbit of up to {settings['max_period']} cycles; "
@@ -45,7 +44,7 @@ def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
         at_rest = initial_states(row[None], ORBIT_TOLERANCE)
         seen = set()
         for state in np.vstack([at_rest, sampled_initial_conditions(row)[:INITIAL_CONDITIONS]]):
-            orbit = settled_orbit(parameters, acceleration, state, range(1, settings["max_period"] + 1), CYCLES)
+            orbit = periodic_orbit(row, state, period=range(1, settings["max_period"] + 1), transient=CYCLES)
             if orbit is not None and (key := (orbit.period, round(orbit.longest_flight, DIGITS))) not in seen:
                 seen.add(key)
                 yield orbit

@@ -9,16 +9,14 @@ import math
 import numpy as np
 
 from conveyor import (
-    DEFAULT_TOLERANCE,
     Dimension,
     box_dimension,
     conveyor_and_start,
     correlation_dimension,
-    initial_states,
     lyapunov_spectrum,
+    periodic_orbit,
     simulate,
 )
-from conveyor.analysis.bifurcations.periodic_orbits import settled_orbit
 from conveyor.analysis.chaos.pairs import finite_difference_exponent
 from conveyor.analysis.fractals.box_counting import box_dimension_of_paper
 from conveyor.analysis.fractals.reference_sets import REFERENCE_DIMENSIONS
@@ -82,10 +80,9 @@ def true_exponent(case: dict, parameters: np.ndarray, model: dict) -> float:
     On a periodic orbit, a perturbation of the phase is a shift in time, which neither grows nor decays; any other
     perturbation follows the larger Floquet multiplier. In chaos, both follow the largest Lyapunov exponent.
     """
-    state = initial_states(parameters, DEFAULT_TOLERANCE)[0]
-    orbit = settled_orbit(parameters[0], case["acceleration"], state, PERIODS, SETTLING)
+    orbit = periodic_orbit(parameters[0], period=PERIODS, transient=SETTLING)
     if orbit is None:
-        return float(lyapunov_spectrum(parameters, state[None]).lambda_1[0])
+        return float(lyapunov_spectrum(parameters).lambda_1[0])
     if case["perturb"] == "psi0":
         return 0.0
     return math.log(abs(orbit.multipliers[0])) * model["frequency"] / orbit.period

@@ -118,7 +118,7 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
     scale = gravity / vertical
     # Each side only as far as its bifurcation: behind the fold, the unstable orbits are not needed up to the doubling.
     sides = (0.9 * low * scale, orbit.acceleration), (orbit.acceleration, FAR_ENOUGH * high * scale)
-    branches = [continue_orbit(conveyor, orbit, low=begin, high=end) for begin, end in sides]
+    branches = [continue_orbit(orbit, "acceleration", side) for side in sides]
     ends = {point.kind: point.orbit.acceleration / scale for branch in branches for point in branch.bifurcations}
     if not {"fold", "period_doubling"} <= ends.keys():
         raise JobError(f"the branch of e = {restitution:g} has only {sorted(ends)}; take a stiffer contact")

@@ -73,14 +73,16 @@ def test_two_conveyors_with_the_same_groups_have_the_same_scaled_fold():
     other = alike(groups, frequency=100.0, angle=0.35, mass=5e-3, gravity=1.62, friction=0.4)
     assert groups_of(other)[1:] == pytest.approx(groups[1:])
     start = stroboscopic_map.initial_states(pack(Conveyor(), Start(3e-4))[None], 1e-13)[0]
-    jumping = periodic_orbits.settled_orbit(PAPER, 40.0, start, (1,), 400)
+    jumping = periodic_orbits.settled_orbit(PAPER, start, (1,), 400)
     ratios = []
     for parameters in (PAPER, other):
         state = jumping.state / length_and_speed_units(PAPER) * length_and_speed_units(parameters)
-        orbit = periodic_orbits.find_orbit(parameters, amplitude_of(parameters, groups.amplitude), state, 1)
+        row = parameters.copy()
+        row[PARAMETERS.index("acceleration")] = amplitude_of(parameters, groups.amplitude)
+        orbit = periodic_orbits.orbit_near(row, state, 1)
         assert orbit.multipliers == pytest.approx(jumping.multipliers, rel=1e-7)
         limits = amplitude_of(parameters, 0.505), amplitude_of(parameters, 1.0)
-        branch = continuation.follow_branch(parameters, orbit, limits)
+        branch = continuation.follow_branch(orbit, "acceleration", limits)
         (fold,) = [found for found in branch.bifurcations if found.kind == "fold"]
         ratios.append(fold.orbit.acceleration / amplitude_of(parameters, 1.0))
     assert ratios[0] == pytest.approx(ratios[1], rel=1e-8)
@@ -93,10 +95,10 @@ def test_groups_of_the_scaled_conveyor_are_unchanged():
 
 
 def test_a_state_at_another_phase_is_moved_to_phase_zero():
-    orbit = periodic_orbits.find_orbit(PAPER, 40.0, np.array([-6.2e-4 * 0.9, 0.03]), 1)
-    assert orbit is not None
     row = PAPER.copy()
-    row[0] = 40.0
+    row[PARAMETERS.index("acceleration")] = 40.0
+    orbit = periodic_orbits.orbit_near(row, np.array([-6.2e-4 * 0.9, 0.03]), 1)
+    assert orbit is not None
     length, _ = length_and_speed_units(row)
     here = bifurcation_points.at_phase_zero(row, orbit.state)
     assert here[0] == pytest.approx(orbit.state[0] / length)

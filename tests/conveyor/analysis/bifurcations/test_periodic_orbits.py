@@ -8,6 +8,7 @@ import pytest
 from conveyor import Conveyor, Start, classify, continue_orbit, parameter_table, periodic_orbit, simulate
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.bifurcations import bifurcation_diagram, continuation, doubling_cascade, periodic_orbits
+from conveyor.packing import as_table
 from conveyor.solver.model import pack
 
 CONVEYOR = Conveyor()
@@ -18,7 +19,7 @@ DECAY = CONVEYOR.damping / CONVEYOR.mass
 def settled(acceleration, z0, max_period=4, cycles=800):
     row = pack(Conveyor(acceleration=acceleration), Start(z0))
     state = stroboscopic_map.initial_states(row[None], periodic_orbits.ORBIT_TOLERANCE)[0]
-    return periodic_orbits.settled_orbit(row, acceleration, state, range(1, max_period + 1), cycles)
+    return periodic_orbits.settled_orbit(row, state, range(1, max_period + 1), cycles)
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +29,7 @@ def jumping():
 
 @pytest.fixture(scope="module")
 def branch(jumping):
-    return continuation.follow_branch(PARAMETERS, jumping, (23.0, 64.0))
+    return continuation.follow_branch(jumping, "acceleration", (23.0, 64.0))
 
 
 def test_orbit_repeats_itself(jumping):
@@ -108,13 +109,12 @@ def test_a_branch_is_followed_around_its_turns(monkeypatch):
             return unknown[None]
 
         def describe(self, unknown):
-            return periodic_orbits.Orbit(
-                float(unknown[2]), self.state(unknown), 1, (0.5 + 0j, 0.1 + 0j), 0.05, 1, 0.0, 0.5
-            )
+            row = as_table(self.row(unknown[2]))
+            return periodic_orbits.Orbit(row, self.state(unknown), 1, (0.5 + 0j, 0.1 + 0j), 0.05, 1, 0.0, 0.5)
 
     monkeypatch.setattr(continuation, "ReturnMap", Circle)
     circle = Circle(PARAMETERS, 1)
-    found = continuation.follow_branch(PARAMETERS, circle.describe(np.array([radius, 0.0, 1.0])), (0.0, 2.0))
+    found = continuation.follow_branch(circle.describe(np.array([radius, 0.0, 1.0])), "acceleration", (0.0, 2.0))
     assert found.ends == ("closed", "closed")
     points = np.array([circle.scaled(orbit.acceleration, orbit.state) for orbit in found.orbits]) - [0.0, 0.0, 1.0]
     assert np.linalg.norm(points, axis=1) == pytest.approx(radius, rel=1e-6)
@@ -131,7 +131,7 @@ def test_period_doubling_agrees_with_iteration(branch):
 
 def test_doubled_orbit_has_twice_the_period(branch):
     doubling = next(b for b in branch.bifurcations if b.kind == "period_doubling")
-    double = continuation.find_doubled_orbit(PARAMETERS, doubling)
+    double = continuation.find_doubled_orbit(doubling)
     assert double.period == 2
     returns = periodic_orbits.ReturnMap(PARAMETERS, 2)
     first, second = returns.strobes(returns.scaled(double.acceleration, double.state))
@@ -183,7 +183,7 @@ def test_no_orbit_is_found_without_one():
 def test_a_grazing_has_its_larger_multiplier():
     """At 47.18 m/s² a micro-bounce begins on the branch of the riding part."""
     riding = settled(46.0, 0.0)
-    found = continuation.follow_branch(PARAMETERS, riding, (45.0, 48.5)).bifurcations
+    found = continuation.follow_branch(riding, "acceleration", (45.0, 48.5)).bifurcations
     grazings = [one for one in found if one.kind == "grazing"]
     assert grazings
     for one in grazings:
@@ -211,11 +211,40 @@ def test_a_jump_of_the_multipliers_at_a_grazing_is_no_fold():
     """Without tension, the multipliers of this jumping motion jump past 1 and -1 where an impact begins."""
     contact = {"angle": 0.5, "mass": 1e-3, "stiffness": 5939725.0, "damping": 2.51, "tension": "clip"}
     conveyor = Conveyor(acceleration=31.0, **contact)
-    found = continue_orbit(conveyor, periodic_orbit(conveyor, Start(3e-3)), low=1.0, high=100.0).bifurcations
+    found = continue_orbit(periodic_orbit(conveyor, Start(3e-3)), "acceleration", (1.0, 100.0)).bifurcations
     assert [one.kind for one in found if one.kind == "grazing"] == ["grazing"]
     for one in found:
         if one.kind != "grazing":
             assert abs(abs(one.multiplier) - 1.0) < 1e-6
+
+
+def test_the_period_of_an_orbit_is_its_least_one():
+    orbit = periodic_orbit(Conveyor(acceleration=57.0), Start(3e-4), period=8)
+    assert orbit.period == 2
+    assert orbit.multipliers == pytest.approx(
+        periodic_orbit(Conveyor(acceleration=57.0), Start(3e-4), period=2).multipliers
+    )
+
+
+@pytest.mark.parametrize("parameter", ["angle", "damping", "frequency", "stiffness", "mass", "gravity", "exponent"])
+def test_a_branch_in_any_parameter_meets_the_bifurcations_of_the_amplitude(parameter):
+    """The orbit doubles its period at one amplitude; the branch in the parameter comes back to its value there."""
+    begin = periodic_orbit(Conveyor(acceleration=53.9), Start(3e-4))
+    (doubling,) = continue_orbit(begin, "acceleration", (53.5, 54.5)).bifurcations
+    value = doubling.orbit.value(parameter)
+    for change in (0.99, 1.01):
+        moved = Conveyor(acceleration=doubling.orbit.acceleration, **{parameter: change * value})
+        orbit = periodic_orbit(moved, doubling.orbit.state, transient=0)
+        limits = sorted((orbit.value(parameter), (2.0 - change) * value))
+        found = continue_orbit(orbit, parameter, limits)
+        (same,) = (one for one in found.bifurcations if one.kind == "period_doubling")
+        assert same.orbit.value(parameter) == pytest.approx(value, rel=1e-9)
+        assert found.columns[parameter][0] == pytest.approx(limits[0], rel=3e-3)
+
+
+def test_orbits_and_branches_are_short_in_a_notebook(branch):
+    assert len(repr(branch)) < 1000
+    assert repr(branch.orbits[0]).startswith("Orbit(64.")  # the fold turns the branch back
 
 
 @pytest.mark.parametrize("conveyor", [{"damping": 10.0}, {"mass": 1e-5}])
