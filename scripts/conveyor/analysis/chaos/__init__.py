@@ -1,1 +1,1 @@
-"""Measures of chaos: Lyapunov exponents and random walks."""
+"""Measures of chaos: Lyapunov exponents."""

@@ -2,9 +2,9 @@
 
 import pandas as pd
 
-from conveyor.analysis.chaos.random_walk import NO_FLUCTUATIONS
 from conveyor_pipeline.common.templates import format_number
 from conveyor_pipeline.machine.operating.populations import ENDS, differences
+from conveyor_pipeline.machine.operating.random_walk import NO_FLUCTUATIONS
 from conveyor_pipeline.machine.operating.regimes import CHAOS, SEVERAL
 
 

@@ -10,10 +10,10 @@ import numpy as np
 import pandas as pd
 
 from conveyor import sample_runs
-from conveyor.analysis.chaos.random_walk import RANDOM_WALK_STATUS, random_walk, relative_spread
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.machine.operating.parts import population, starts_of_box
 from conveyor_pipeline.machine.operating.populations import IDENTICAL, PROBABILITIES
+from conveyor_pipeline.machine.operating.random_walk import RANDOM_WALK_STATUS, random_walk, relative_spread
 from conveyor_pipeline.machine.operating.regimes import CHAOS, SEVERAL
 from conveyor_pipeline.machine.operating.transit import follow, quantiles, spread_of, spread_stderr
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from conveyor_pipeline.paper.claims.about_states import flat_part
+from conveyor_pipeline.paper.fit.hyperbola import Hyperbola, critical_height
 
 
 def numbers(*, fit: pd.DataFrame) -> dict[str, float]:

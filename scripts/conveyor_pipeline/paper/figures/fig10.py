@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from conveyor_pipeline.figures import style
+from conveyor_pipeline.paper.fit.hyperbola import Hyperbola, critical_height
 
 
 def ends_of(axis: list | dict) -> tuple[float, float]:

@@ -6,9 +6,9 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from conveyor.analysis.basins.hyperbola import Hyperbola, critical_height
 from conveyor_pipeline.figures import style
 from conveyor_pipeline.paper.claims.about_states import flat_part
+from conveyor_pipeline.paper.fit.hyperbola import Hyperbola, critical_height
 
 MARKERS = {
     "pymoo": ("o", style.CONVERGED, "pymoo"),

@@ -3,9 +3,9 @@
 import numpy as np
 import pandas as pd
 
-from conveyor.analysis.basins.hyperbola import Hyperbola, mean_squared_error
-from conveyor.analysis.basins.hyperbola_fit import fit_hyperbola, fit_hyperbola_by_pymoo, hyperbola_profile
 from conveyor_pipeline.common import fields
+from conveyor_pipeline.paper.fit.hyperbola import Hyperbola, mean_squared_error
+from conveyor_pipeline.paper.fit.hyperbola_fit import fit_hyperbola, fit_hyperbola_by_pymoo, hyperbola_profile
 
 TABLES = {
     "regressions": (

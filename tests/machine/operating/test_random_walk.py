@@ -1,9 +1,18 @@
 """Drift and diffusion of random walks in closed form."""
 
+import doctest
+import sys
+
 import numpy as np
 import pytest
 
-from conveyor.analysis.chaos.random_walk import CORRELATED, NO_FLUCTUATIONS, OK, random_walk, relative_spread
+from conveyor_pipeline.machine.operating.random_walk import (
+    CORRELATED,
+    NO_FLUCTUATIONS,
+    OK,
+    random_walk,
+    relative_spread,
+)
 
 PERIOD = 0.02
 
@@ -89,3 +98,7 @@ def test_relative_spread_of_random_walks():
     low, high = np.quantile(1.0 / arrival, [0.1587, 0.8413])
     expected = relative_spread(1e-3 / PERIOD, 0.5 * 9e-6 / PERIOD, 1.0, 1.0)
     assert (high - low) / np.median(1.0 / arrival) == pytest.approx(expected, rel=0.1)
+
+
+def test_examples():
+    assert not doctest.testmod(sys.modules[random_walk.__module__], extraglobs={"np": np}).failed

@@ -1,9 +1,12 @@
 """Fits of Eq. 13 to data from Eq. 13."""
 
+import doctest
+
 import numpy as np
 import pytest
 
-from conveyor.analysis.basins.hyperbola_fit import (
+from conveyor_pipeline.paper.fit import hyperbola_fit
+from conveyor_pipeline.paper.fit.hyperbola_fit import (
     Hyperbola,
     critical_height,
     fit_hyperbola,
@@ -113,3 +116,7 @@ def test_data_and_bounds_are_checked(acceleration, height, bounds, message):
         fit_hyperbola(acceleration, height, bounds)
     with pytest.raises(ValueError, match=message):
         fit_hyperbola_by_pymoo(acceleration, height, {**BOUNDS, "B": bounds}, 1, 100)
+
+
+def test_examples():
+    assert not doctest.testmod(hyperbola_fit, extraglobs={"np": np}).failed

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import least_squares
 
-from .hyperbola import Hyperbola, critical_height, mean_squared_error
+from conveyor_pipeline.paper.fit.hyperbola import Hyperbola, critical_height, mean_squared_error
 
 STARTS = 100  # values of B at which the valley is searched for its minima
 
@@ -118,13 +118,11 @@ def fit_hyperbola_by_pymoo(
     >>> round(fit.parameters.A, 6), round(fit.parameters.B, 4)
     (0.005, 1.0)
     """
-    try:
-        from pymoo.algorithms.soo.nonconvex.cmaes import CMAES
-        from pymoo.core.problem import Problem
-        from pymoo.optimize import minimize
-    except ModuleNotFoundError as error:
-        message = 'fit_hyperbola_by_pymoo needs pymoo; install it in the folder of this project by pip install ".[fit]"'
-        raise ModuleNotFoundError(message, name=error.name) from None
+    # Slow to import.
+    from pymoo.algorithms.soo.nonconvex.cmaes import CMAES
+    from pymoo.core.problem import Problem
+    from pymoo.optimize import minimize
+
     acceleration, height = check_data(acceleration, height, bounds["B"])
     low, high = np.array([bounds[name] for name in Hyperbola._fields], dtype=np.float64).T
     # In the unit cube and in units of the data's variance, which suit the algorithm's own scales and tolerances.

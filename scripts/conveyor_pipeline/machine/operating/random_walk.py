@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...arguments import LARGEST_COORDINATE, check_array, check_time
+from conveyor.arguments import LARGEST_COORDINATE, check_array, check_time
 
 # Largest correlation of the displacements in neighbouring windows that counts as none, besides two standard errors.
 DECAYED = 0.05
