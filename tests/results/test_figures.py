@@ -6,7 +6,6 @@ from typing import NamedTuple
 import matplotlib.legend
 import matplotlib.text
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from conveyor_pipeline.config.tables import kind_of
@@ -87,9 +86,6 @@ def drawn(request):
     figure = draw_again(request.param)
     with style.applied():
         style.lay_out(figure)
-    FigureCanvasAgg(figure)  # measures texts
-    figure.dpi = style.RESOLUTION  # of the layout
-    figure.draw_without_rendering()
     return Drawn(request.param, figure)
 
 
