@@ -20,27 +20,30 @@ def pair_counts(points, references, theiler, squares):
     references : each (an index) is paired with all points that are more than `theiler` samples away
     squares : of the radii, descending, shape (k,)
     """
-    shells, pairs = np.zeros(len(squares) + 1, np.int64), 0  # numbers of pairs between neighbouring radii
+    counts, pairs = np.zeros(len(squares), np.int64), 0
     n = len(points)
     x, y = points[:, 0].copy(), points[:, 1].copy()
-    apart, near = np.empty(n), np.empty(n)
+    near = np.empty(n)
     for i in references:
         # A loop of its own, so that the processor computes several distances at a time.
         for j in range(n):
-            apart[j] = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
+            near[j] = (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
         begin, end = max(i - theiler, 0), min(i + theiler + 1, n)
-        apart[begin:end] = np.inf
+        near[begin:end] = np.inf
         pairs += n - (end - begin)
-        count = 0
-        for j in range(n):
-            near[count] = apart[j]
-            count += apart[j] < squares[0]
-        for j in range(count):
-            shell = 0  # most pairs are in the first ones
-            while shell < len(squares) and near[j] < squares[shell]:
-                shell += 1
-            shells[shell] += 1
-    return shells[:0:-1].cumsum()[::-1], pairs
+        count = n
+        for k in range(len(squares)):
+            # Keep what is closer than this radius, without branches: the processor could not guess them.
+            closer = 0
+            for j in range(count):
+                apart = near[j]
+                near[closer] = apart
+                closer += apart < squares[k]
+            counts[k] += closer
+            count = closer
+            if count == 0:
+                break
+    return counts, pairs
 
 
 MINIMUM_PAIRS = 1000  # closer than the smallest radius: 3 % noise
