@@ -2,10 +2,10 @@
 
 Numba alone recognises a change only in the file of a function, although the machine code also holds functions of other
 files. Here any change in the library gives the machine code of its modules a new folder, so that no stale code runs.
-Only the modules of `solver`, which import nothing but `parameters` and each other, keep theirs after a change
+Only the modules of `solver`, which import nothing but SHARED modules and each other, keep theirs after a change
 elsewhere, so that the first `simulate` need not compile for half a minute again. Clones with equal sources share their
 folders, and the library itself may be read-only. Numba writes each file under a name of its own and then renames it, so
-that several jobs may compile at once.
+that no process reads half a file.
 """
 
 import hashlib
@@ -27,13 +27,14 @@ if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
 
 SOLVER = Path(__file__).resolve().parent
 LIBRARY = SOLVER.parent
+SHARED = "arguments.py", "parameters.py"
 
 
 @cache
 def content(folder: Path) -> str:
-    """16 hexadecimal digits: the SHA-256 of all modules below a folder, of `parameters`, and of the compilers."""
+    """16 hexadecimal digits: the SHA-256 of all modules below a folder, of SHARED, and of the compilers."""
     digest = hashlib.sha256(f"{platform.python_version()} {numba.__version__} {llvmlite.__version__}".encode())
-    for file in sorted({LIBRARY / "parameters.py", *folder.rglob("*.py")}):
+    for file in sorted({*(LIBRARY / name for name in SHARED), *folder.rglob("*.py")}):
         digest.update(f"\0{file.relative_to(LIBRARY)}\0".encode() + file.read_bytes())
     return digest.hexdigest()[:16]
 

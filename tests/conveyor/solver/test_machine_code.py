@@ -17,7 +17,12 @@ def a_function():
 @pytest.fixture
 def library(tmp_path, monkeypatch):
     """A small library in place of this one; a function writes a file of it and gives the folders' contents."""
-    files = {"parameters": "G = 9.81\n", "solver/contact": "W = 0\n", "analysis/orbits": "W = 1\n"}
+    files = {
+        "parameters": "G = 9.81\n",
+        "arguments": "G = 9.81\n",
+        "solver/contact": "W = 0\n",
+        "analysis/orbits": "W = 1\n",
+    }
     monkeypatch.setattr(machine_code, "LIBRARY", tmp_path)
     monkeypatch.setattr(machine_code, "SOLVER", tmp_path / "solver")
 
@@ -35,7 +40,12 @@ def library(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(
     ("changed", "same"),
-    [("parameters", (False, False)), ("solver__contact", (False, False)), ("analysis__orbits", (True, False))],
+    [
+        ("parameters", (False, False)),
+        ("arguments", (False, False)),
+        ("solver__contact", (False, False)),
+        ("analysis__orbits", (True, False)),
+    ],
 )
 def test_a_change_gives_a_new_folder_to_all_code_that_may_hold_it(library, changed, same):
     before, after = library(), library(**{changed: "G = 9.8\n"})
@@ -59,7 +69,7 @@ def test_a_new_module_gives_a_new_folder(library):
 def test_modules_of_the_solver_import_only_what_their_folder_is_named_by():
     for file in machine_code.SOLVER.rglob("*.py"):
         used, _ = direct_imports(file, machine_code.LIBRARY.parent, machine_code.LIBRARY.name)
-        named_by = {machine_code.LIBRARY / "parameters.py", *machine_code.SOLVER.rglob("*.py")}
+        named_by = {*(machine_code.LIBRARY / name for name in machine_code.SHARED), *machine_code.SOLVER.rglob("*.py")}
         assert used <= named_by | {machine_code.LIBRARY / "__init__.py"}, file
 
 
