@@ -3,17 +3,28 @@
 While it compiles, Python's garbage collector is off: it would search through all that the compiler still needs, and the
 first `simulate` would take a tenth longer.
 
-Numba sends the event "numba:compile" for each function that its cache does not hold (see "Event API" in its
-documentation).
+One process at a time looks for code in the cache and compiles what is missing. Processes that start together wait for
+the first one and load its code, instead of compiling the same functions.
+
+Numba sends the event "numba:compile" for each function that its cache does not hold, and "numba:compiler_lock" around
+each search in the cache with the compilation that may follow (see "Event API" in its documentation).
 """
 
 import gc
+import os
 import sys
+import threading
+from functools import cache
 
+from filelock import FileLock
 from numba.core import event
 from tqdm import tqdm
 
-KIND = "numba:compile"
+from . import machine_code
+
+KIND, SEARCH_KIND = "numba:compile", "numba:compiler_lock"
+# After this time, s, a process compiles without the lock. The other process may have been suspended.
+LONGEST_WAIT = 300.0
 NOTICE = "Compiling the solver. This happens once per version; later runs load it from the cache."
 
 
@@ -51,7 +62,36 @@ class WithoutCollector(event.Listener):
             gc.enable()
 
 
+@cache
+def lock_of(process: int) -> FileLock:
+    """The lock of the cache, which all threads of a process share. A forked process needs a lock of its own."""
+    file = machine_code.root() / "compiling.lock"
+    return FileLock(file, timeout=LONGEST_WAIT, thread_local=False, fallback_to_soft=False)
+
+
+class OneProcess(event.Listener):
+    """Holds the lock of the cache from the first to the last of nested searches in it. A killed process releases it."""
+
+    threads = threading.local()
+
+    def on_start(self, event: event.Event) -> None:
+        depth = getattr(self.threads, "depth", 0)
+        if depth == 0:
+            lock = lock_of(os.getpid())
+            try:
+                lock.acquire()
+            except (OSError, NotImplementedError):  # too late, or a file system without locks
+                lock.timeout = 0.0
+        self.threads.depth = depth + 1
+
+    def on_end(self, event: event.Event) -> None:
+        self.threads.depth -= 1
+        if self.threads.depth == 0:
+            lock_of(os.getpid()).release()
+
+
 TIMER = event.TimingListener()
+event.register(SEARCH_KIND, OneProcess())
 event.register(KIND, Notice())
 event.register(KIND, WithoutCollector())
 event.register(KIND, TIMER)
