@@ -147,7 +147,8 @@ def check_rows(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
     if waves < 0 or waves % len(HARMONIC) != 0:
         raise ValueError(f"parameters must be a table from parameter_table, got the shape {rows.shape}")
     shape = rows.shape[:-1]
-    rows = np.ascontiguousarray(rows, dtype=np.float64).reshape(-1, rows.shape[-1])
+    # Numba would compile the solver once more for an array that is read-only or has another layout.
+    rows = np.require(rows, np.float64, ["C", "W"]).reshape(-1, rows.shape[-1])
     low, high = (np.append(ends, np.tile(of_wave, waves // len(HARMONIC))) for ends, of_wave in ENDS)
     outside = ~((rows >= low) & (rows <= high))
     outside[:, : len(PARAMETERS)] &= ~(MAY_BE_NAN & np.isnan(rows[:, : len(PARAMETERS)]))
@@ -198,7 +199,8 @@ def plate_heights(parameters: np.ndarray) -> np.ndarray:
     >>> plate_heights(parameter_table(Conveyor(acceleration=40.0), psi0=[0.0, 3.0])) > 0.0
     array([False,  True])
     """
-    return heights_of_rows(as_rows(parameters))
+    rows = as_rows(parameters)
+    return heights_of_rows(rows, plate.count_harmonics(rows))
 
 
 def plate_peaks(parameters: np.ndarray) -> Columns:
@@ -239,11 +241,11 @@ def plate_peaks(parameters: np.ndarray) -> Columns:
 
 
 @compiled
-def heights_of_rows(rows):
-    """`plate_heights` of rows as from `as_rows`."""
+def heights_of_rows(rows, harmonics):
+    """`plate_heights` of rows as from `as_rows`; `harmonics` as from plate.count_harmonics."""
     heights = np.empty(len(rows))
     for i in range(len(rows)):
-        c = contact.constants(rows[i], DEFAULT_TOLERANCE)
+        c = contact.compute_constants(rows[i], DEFAULT_TOLERANCE, harmonics)
         heights[i] = plate.height(c, *plate.sine_and_cosine(c.psi0))
     return heights
 

@@ -34,12 +34,17 @@ IMPACTS, CONTACT_TIME, DAMPER_TIME, LONGEST_FLIGHT, AIRBORNE = range(5)
 FEATURES = 5
 
 
-@compiled
-def initial_states(parameters, tolerance):
+def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
     """States (δ in m, v in m/s), shape (n, 2), of the initial conditions in `parameters`, shape (n, 16)."""
+    return find_initial_states(parameters, tolerance, plate.count_harmonics(parameters))
+
+
+@compiled
+def find_initial_states(parameters, tolerance, harmonics):
+    """The compiled part of `initial_states`; `harmonics` as from plate.count_harmonics."""
     states = np.empty((len(parameters), 2))
     for i in range(len(parameters)):
-        c = contact.constants(parameters[i], tolerance)
+        c = contact.compute_constants(parameters[i], tolerance, harmonics)
         q, rate = vertical.begin(c, parameters[i, Z0], parameters[i, VZ0], c.psi0)
         states[i, 0], states[i, 1] = -q, -rate
     return states
@@ -182,16 +187,17 @@ def follow_map(
     features : float64, shape (cycles, 5), see `advance`; NaN from a failure on
     """
     strobes, features = np.full((cycles, 2), np.nan), np.full((cycles, FEATURES), np.nan)
-    return fill_map(parameters, tolerance, state, strobes, features), strobes, features
+    harmonics = plate.count_harmonics(parameters)
+    return fill_map(parameters, tolerance, harmonics, state, strobes, features), strobes, features
 
 
 @compiled
-def fill_map(parameters, tolerance, state, strobes, features):
+def fill_map(parameters, tolerance, harmonics, state, strobes, features):
     """The compiled part of `follow_map`, which fills the arrays and returns the status.
 
     Numba runs Python code where a compiled function returns an array. Ctrl-C would be raised there, as a SystemError.
     """
-    c = contact.constants(parameters, tolerance)
+    c = contact.compute_constants(parameters, tolerance, harmonics)
     series = contact.workspace()
     no_tangent = np.empty((0, 2))
     cycle_features = np.zeros(FEATURES)
@@ -243,13 +249,15 @@ def monodromy(
     features : float64, shape (cycles, 5), see `advance`; 0 behind a failure
     """
     matrices, features = np.zeros((cycles, 2, 2)), np.zeros((cycles, FEATURES))
-    return fill_monodromy(parameters, tolerance, state, airborne, matrices, features), matrices, features
+    harmonics = plate.count_harmonics(parameters)
+    status = fill_monodromy(parameters, tolerance, harmonics, state, airborne, matrices, features)
+    return status, matrices, features
 
 
 @compiled
-def fill_monodromy(parameters, tolerance, state, airborne, matrices, features):
+def fill_monodromy(parameters, tolerance, harmonics, state, airborne, matrices, features):
     """The compiled part of `monodromy`, see `fill_map`."""
-    c = contact.constants(parameters, tolerance)
+    c = contact.compute_constants(parameters, tolerance, harmonics)
     series = contact.workspace()
     cycle_features = np.zeros(FEATURES)
     cycle_features[AIRBORNE] = airborne

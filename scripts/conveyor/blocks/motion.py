@@ -142,12 +142,15 @@ def repeats(c, body, before, between):
 
 
 @compiled
-def follow(parameters, bodies, tilts, tolerance, times, since, samples, distances, arrivals, results, workspace):
+def follow(
+    parameters, harmonics, bodies, tilts, tolerance, times, since, samples, distances, arrivals, results, workspace
+):
     """Follow blocks until the last of their times, or until they are at the last distance.
 
     Parameters
     ----------
     parameters : float64, shape (n, 16), see parameters.PARAMETERS; z0 is the height of the centre above that at rest
+    harmonics : as from plate.count_harmonics
     bodies, tilts : length and height (m), moment of inertia per mass (m²), shape (n, 3); initial angles (rad)
     tolerance : relative error per step of the contact
     times, since : s, ascending, shape (n, k); s from which statistics count, shape (n,)
@@ -163,7 +166,7 @@ def follow(parameters, bodies, tilts, tolerance, times, since, samples, distance
     # `before` is the state one block of cycles ago.
     state, after, between, before = no_refcount((states[0], states[1], states[2], states[3]))
     for i in range(len(parameters)):
-        c = contact.constants(parameters[i], tolerance)
+        c = contact.compute_constants(parameters[i], tolerance, harmonics)
         body = Body(0.5 * bodies[i, 0], 0.5 * bodies[i, 1], bodies[i, 2])
         margins = margins_of(c)
         end, cycles = times[i, -1], 1.0 + times[i, -1] * c.omega / TURN

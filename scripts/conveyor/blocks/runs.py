@@ -21,6 +21,7 @@ from conveyor.columns import Columns
 from conveyor.packing import AT_REST, as_rows, check_rows, parameter_table
 from conveyor.parallel import for_each_chunk
 from conveyor.parameters import LAST
+from conveyor.solver import plate
 from conveyor.solver.model import Conveyor, Start
 from conveyor.solver.status import OK, STATUS
 
@@ -134,7 +135,7 @@ def follow(rows, blocks, tilts, times, *, tolerance, since=None, distances=None)
     results = np.zeros((n, motion.RESULTS))
     workspace = np.empty((4, STATE)), np.empty((STAGES, STATE)), np.empty((ROWS, CORNERS))
     options = tolerance, np.ascontiguousarray(times), since, samples, distances, arrivals, results, workspace
-    motion.follow(np.ascontiguousarray(rows), blocks, tilts, *options)
+    motion.follow(np.ascontiguousarray(rows), plate.count_harmonics(rows), blocks, tilts, *options)
     return samples, arrivals, results
 
 

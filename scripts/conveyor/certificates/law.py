@@ -19,7 +19,7 @@ from ..solver.plate import Plate
 from .balls import exactly
 
 # The plate's motion normal to the track at γ = 1.
-PLATE = Plate(omega=1, a_x=0, a_z=1, cos_shift=1, sin_shift=0, harmonics=0, waves=0)
+PLATE = Plate(omega=1, a_x=0, a_z=1, cos_shift=1, sin_shift=0, waves=None)
 
 # Digits after the decimal point of an angle in degrees that is read as a decimal number of degrees.
 DIGITS_OF_DEGREES = 9

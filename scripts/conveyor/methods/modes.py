@@ -24,8 +24,7 @@ def plate_of(parameters):
         parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]),
         math.cos(parameters[model.PHASE_SHIFT]),
         math.sin(parameters[model.PHASE_SHIFT]),
-        0,
-        0,
+        None,
     )
 
 

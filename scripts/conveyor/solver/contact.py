@@ -10,7 +10,6 @@ from collections import namedtuple
 
 import numpy as np
 
-from ..parameters import PARAMETERS
 from . import contact_law, model, plate, polynomial
 from .contact_law import expand, expand_sign, twice_elastic_energy
 from .jit import compiled, compiled_inline, compiled_into_callers
@@ -26,17 +25,22 @@ BEFORE_LAST = ORDER - 1
 # The constants of one conveyor in the equations of motion, SI units, forces per mass. Gravity has the component
 # `gravity`, g cos α, normal to the track, and `downhill`, g sin α, against the feeding direction. A part at rest has
 # the √penetration scale_w (√m); scale_v (m/s) is the speed of a fall by this penetration. The last three belong to
-# the plate: Bounds, the number of harmonics, and the address of their numbers in the parameter vector.
+# the plate: Bounds, and plate.Waves or None.
 Constants = namedtuple(
     "Constants",
     "omega period psi0 a_x a_z gravity downhill cos_shift sin_shift stiffness damping exponent friction "
-    "static_friction mass tension tolerance scale_w scale_v edge_w rest_speed rest_force bounds harmonics waves",
+    "static_friction mass tension tolerance scale_w scale_v edge_w rest_speed rest_force bounds waves",
 )
 
 
-@compiled
-def constants(parameters, tolerance):
+def constants(parameters: np.ndarray, tolerance: float) -> Constants:
     """The Constants of a packed parameter vector (see parameters.PARAMETERS) at a relative tolerance per step."""
+    return compute_constants(parameters, tolerance, plate.count_harmonics(parameters))
+
+
+@compiled
+def compute_constants(parameters, tolerance, harmonics):
+    """`constants` for compiled callers; `harmonics` as from plate.count_harmonics, which decides on their type."""
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     gravity = model.normal_gravity(parameters)
     exponent = parameters[model.EXPONENT]
@@ -45,7 +49,7 @@ def constants(parameters, tolerance):
     # cos(π/2) is not zero in floating point.
     along = math.cos(parameters[model.ANGLE]) if parameters[model.ANGLE] < 0.5 * math.pi else 0.0
     a_z = parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE])
-    harmonics = parameters[len(PARAMETERS) :]
+    waves = plate.waves_of(parameters, harmonics)
     return Constants(
         omega,
         1.0 / parameters[model.FREQUENCY],
@@ -71,9 +75,8 @@ def constants(parameters, tolerance):
         10.0 * tolerance * math.sqrt(2.0 * gravity * static_penetration),
         # rest_force: weaker contact forces, per mass, are none.
         10.0 * tolerance * gravity,
-        plate.bounds(harmonics, a_z, omega),
-        harmonics.size // plate.NUMBERS,
-        harmonics.ctypes.data,
+        plate.bounds(waves, a_z, omega),
+        waves,
     )
 
 
@@ -117,9 +120,7 @@ def begin_step(c, series, at, w0, v0, sine0, cosine0, pulled):
     length = ratio**root
     if c.edge_w > 0.0 and series[at + SPRING] > 0.0:
         length = min(length, contact_law.length_of_spring(c, series, at, w0, v0))
-    if plate.has_harmonics(c):
-        length = min(length, plate.series_length(series, first, lanes, c.tolerance))
-    return length
+    return min(length, plate.series_length(c.waves, series, first, lanes, c.tolerance))
 
 
 @compiled_into_callers

@@ -52,14 +52,15 @@ def value(memory, row, lane, s):
 def step(memory, lanes, harmonics):
     """Expand the motions of the first `lanes` lanes, and take the steps in which no event can be.
 
-    `harmonics` is the number of harmonics, which the compiler must know: it writes the loop over them out. Returns an
-    integer with a bit for each lane: 1 if the lane keeps its motion, so that contact.end_step must end it.
+    `harmonics` is the number of harmonics, which the compiler must know, because it writes the loop over them out; None
+    for plates without. Returns an integer with a bit for each lane: 1 if the lane keeps its motion, so that
+    contact.end_step must end it.
 
     The number of lanes is an argument because LLVM would unroll a short loop of constant length before it copies the
     functions into it. Unsigned places in one array spare it checks whether numbers overlap.
     """
     stride = np.uint64(LANES)
-    if harmonics > 0:
+    if harmonics is not None:
         # A loop of its own, because the orders of the harmonics are not known.
         for k in range(lanes):
             lane = np.uint64(k)
@@ -73,7 +74,7 @@ def step(memory, lanes, harmonics):
         sine, cosine = memory[place(SINE, lane)], memory[place(COSINE, lane)]
         gravity, a_z, omega = memory[place(GRAVITY, lane)], memory[place(A_Z, lane)], memory[place(OMEGA, lane)]
         constants = gravity, a_z, omega, stiffness, memory[place(DAMPING, lane)]
-        if harmonics > 0:
+        if harmonics is not None:
             shift = memory[place(COS_SHIFT, lane)], memory[place(SIN_SHIFT, lane)]
             waves = place(WAVES, lane), harmonics, *shift
             expand_harmonic_hertz(w, v, sine, cosine, *constants, memory, at, stride, False, *waves)
@@ -86,10 +87,8 @@ def step(memory, lanes, harmonics):
     for k in range(lanes):
         lane = np.uint64(k)
         length = memory[place(RATIO, lane)] ** memory[place(ROOT, lane)]
-        if harmonics > 0:
-            at, tolerance = place(SERIES, lane), memory[place(TOLERANCE, lane)]
-            length = min(length, plate.series_length(memory, at, stride, tolerance))
-        memory[place(LENGTH, lane)] = length
+        at, tolerance = place(SERIES, lane), memory[place(TOLERANCE, lane)]
+        memory[place(LENGTH, lane)] = min(length, plate.series_length(harmonics, memory, at, stride, tolerance))
     stopped = np.uint64(0)
     for k in range(lanes):
         lane = np.uint64(k)
@@ -115,9 +114,9 @@ def step(memory, lanes, harmonics):
     return np.int64(stopped)
 
 
-def row_count(harmonics: int) -> int:
-    """The number of rows of a memory for plates with a number of harmonics."""
-    return WAVES + workspace.WAVE * harmonics
+def row_count(harmonics: int | None) -> int:
+    """The number of rows of a memory for plates with a number of harmonics, or None."""
+    return WAVES + workspace.WAVE * (harmonics or 0)
 
 
 def new_memory(rows: int) -> tuple[np.ndarray, np.ndarray]:
@@ -165,7 +164,7 @@ def set_constants(flat, memory, lane, c):
     memory[TOLERANCE, lane] = c.tolerance
     memory[SCALE_V, lane] = c.scale_v
     memory[COS_SHIFT, lane], memory[SIN_SHIFT, lane] = c.cos_shift, c.sin_shift
-    plate.write_waves(c, flat, place(WAVES, np.uint64(lane)), np.uint64(LANES))
+    plate.write_waves(c.waves, flat, place(WAVES, np.uint64(lane)), np.uint64(LANES))
 
 
 @compiled_inline

@@ -183,11 +183,20 @@ def expand_one_hertz(w0, v0, sine0, cosine0, gravity, a_z, omega, stiffness, dam
 @compiled
 def expand_one_harmonic_hertz(c, w0, v0, sine0, cosine0, stiffness, damping, series, at):
     """`expand_harmonic_hertz` for one trajectory."""
-    plate.begin_series(c, series, at, sine0, cosine0)
+    plate.begin_series(c, c.waves, series, at, sine0, cosine0)
     first, lanes = np.uint64(at), np.uint64(1)
     constants = c.gravity, c.a_z, c.omega, stiffness, damping
-    waves = plate.WAVES, c.harmonics, c.cos_shift, c.sin_shift
+    waves = plate.WAVES, c.waves.count, c.cos_shift, c.sin_shift
     expand_harmonic_hertz(w0, v0, sine0, cosine0, *constants, series, first, lanes, True, *waves)
+
+
+@compiled_inline
+def expand_any_hertz(c, waves, w0, v0, sine0, cosine0, stiffness, damping, series, at):
+    """Fill the rows of a step for p = 3/2, for a plate with plate.Waves, or None."""
+    if waves is None:
+        expand_one_hertz(w0, v0, sine0, cosine0, c.gravity, c.a_z, c.omega, stiffness, damping, series, at)
+    else:
+        expand_one_harmonic_hertz(c, w0, v0, sine0, cosine0, stiffness, damping, series, at)
 
 
 @compiled_into_callers
@@ -208,7 +217,7 @@ def expand_other(c, w0, v0, sine0, cosine0, stiffness, damping, series, at):
     series[w] = w0
     series[t] = 0.0
     series[v] = v0
-    plate.begin_series(c, series, at, sine0, cosine0)
+    plate.begin_series(c, c.waves, series, at, sine0, cosine0)
     series[squared] = w0 * w0
     general = not hooke and w0 > c.edge_w
     for n in range(SIZE):
@@ -219,7 +228,7 @@ def expand_other(c, w0, v0, sine0, cosine0, stiffness, damping, series, at):
         inverse = 1.0 / (n + 1)
         series[w + n + 1] = 0.5 * series[v + n] * inverse
         series[t + n + 1] = series[w + n] * inverse
-        plate.extend_series(c, series, at, n)
+        plate.extend_series(c, c.waves, series, at, n)
         cube = 0.0
         doubled = series[w + n + 1] * w0
         for k in range(n + 1):
@@ -241,10 +250,8 @@ def expand(c, series, at, w0, v0, sine0, cosine0, free):
     """Fill the rows of a step from their values at s = 0; `free` leaves the contact force out."""
     stiffness = 0.0 if free else c.stiffness
     damping = 0.0 if free else c.damping
-    if c.exponent == 1.5 and plate.has_harmonics(c):
-        expand_one_harmonic_hertz(c, w0, v0, sine0, cosine0, stiffness, damping, series, at)
-    elif c.exponent == 1.5:
-        expand_one_hertz(w0, v0, sine0, cosine0, c.gravity, c.a_z, c.omega, stiffness, damping, series, at)
+    if c.exponent == 1.5:
+        expand_any_hertz(c, c.waves, w0, v0, sine0, cosine0, stiffness, damping, series, at)
     else:
         expand_other(c, w0, v0, sine0, cosine0, stiffness, damping, series, at)
 

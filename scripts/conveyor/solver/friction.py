@@ -70,7 +70,7 @@ def slip_end(c, step, segment, slip, leave):
     """
     series, mu = step.series, segment.mu
     fall = mu * c.gravity - segment.sigma * c.downhill
-    plate.expand_velocities(c, series, step.at, SPARE, segment.sigma, -mu, mu, -fall)
+    plate.expand_velocities(c, c.waves, series, step.at, SPARE, segment.sigma, -mu, mu, -fall)
     series[SPARE] = 0.0
     series[SPARE] = segment.sigma * slip - polynomial.value(series, SPARE, segment.s)
     return polynomial.first_root(series, SPARE, segment.s, step.piece.length, leave)
@@ -98,7 +98,7 @@ def stick_end(c, step, segment):
         if c.downhill != 0.0 or direction * first <= 0.0 or not pushed:
             slack = c.static_friction * c.rest_force + direction * c.downhill
             expand_force(c, series, at, SPARE, c.static_friction)
-            plate.add_pull(c, series, at, SPARE, direction, slack)
+            plate.add_pull(c, c.waves, series, at, SPARE, direction, slack)
             root = polynomial.first_root(series, SPARE, segment.s, length, polynomial.LEAVE)
             if root < end:
                 for n in range(ORDER):

@@ -6,8 +6,11 @@ With θ = ωt + ψ0 and the orders k of the harmonics, the accelerations of the 
     ẍ_s = a_x [cos(θ + ε) + Σ along_k cos(kθ + along_phase_k)].
 
 Velocities and positions are the integrals without a mean. Functions of a phase take its sine and cosine, from which
-those of kθ follow by the angle addition theorem. `c` is contact.Constants. A plate without harmonics, which is the
-paper's, costs one comparison in each function.
+those of kθ follow by the angle addition theorem. `c` is contact.Constants.
+
+Whether a plate has harmonics is a type: `c.waves` is None for the paper's plate, for which Numba compiles the
+fundamental alone. The code of harmonics is compiled when a plate with harmonics is met. A function whose code differs
+takes `waves` as an argument of its own, because Numba drops code only where an argument is None.
 """
 
 import math
@@ -16,6 +19,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from ..parameters import PARAMETERS
 from .jit import compiled, compiled_inline, compiled_into_callers, copy, number_at
 from .polynomial import ORDER, SIZE, place
 from .unrolled import product, total
@@ -30,12 +34,16 @@ NUMBERS = 5
 # and the phases of each.
 PHASES, FINER, CLOSE = 4096, 3, 64
 
+# The harmonics of a conveyor: their number, and the address of their numbers in the parameter vector. It must exist as
+# long as they are in use.
+Waves = namedtuple("Waves", "count address")
 # What harmonics add to position, velocity and acceleration normal to the track (z, vz, az) and along it (x, vx, ax), as
 # shares of the fundamental's amplitudes; the position with the opposite sign.
 Sums = namedtuple("Sums", "z vz az x vx ax")
 # The first row of harmonics in a workspace, and its number of lanes.
 WAVES, ONE = np.uint64(HARMONICS), np.uint64(1)
-NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+# A negative zero changes no number that it is added to, not even a zero, so that the compiler drops the sum.
+NO_SUMS = Sums(-0.0, -0.0, -0.0, -0.0, -0.0, -0.0)
 # Position and velocity normal to the track, velocity and acceleration along it, divided by their amplitudes.
 Shapes = namedtuple("Shapes", "z vz vx ax")
 # Bounds: on position (m), acceleration (m/s²) and its rate (m/s³) normal to the track; on acceleration and its rate
@@ -45,7 +53,20 @@ Bounds = namedtuple("Bounds", "height lift jerk pull pull_rate")
 # multiples of the fundamental's amplitudes.
 Peaks = namedtuple("Peaks", "x z vx ax az")
 # What functions of a phase take of contact.Constants, for other callers; other arithmetic has no harmonics.
-Plate = namedtuple("Plate", "omega a_x a_z cos_shift sin_shift harmonics waves")
+Plate = namedtuple("Plate", "omega a_x a_z cos_shift sin_shift waves")
+
+
+def count_harmonics(parameters: np.ndarray) -> int | None:
+    """The number of harmonics in packed parameters, shape (…, 16 + 5 h), or None for a plate without."""
+    return (parameters.shape[-1] - len(PARAMETERS)) // NUMBERS or None
+
+
+@compiled_inline
+def waves_of(parameters, harmonics):
+    """The Waves of a packed parameter vector with a number of harmonics; None if that is None."""
+    if harmonics is None:
+        return None
+    return Waves(harmonics, parameters[len(PARAMETERS) :].ctypes.data)
 
 
 @compiled_inline
@@ -70,15 +91,15 @@ def multiple(order, sine, cosine):
 
 
 @compiled_inline
-def numbers_of(c, h):
-    """The numbers of harmonic h of a conveyor, in the order above."""
+def numbers_of(waves, h):
+    """The numbers of harmonic h of Waves, in the order above."""
     first = h * NUMBERS
     return (
-        number_at(c.waves, first + K),
-        number_at(c.waves, first + ALONG_COSINE),
-        number_at(c.waves, first + ALONG_SINE),
-        number_at(c.waves, first + NORMAL_COSINE),
-        number_at(c.waves, first + NORMAL_SINE),
+        number_at(waves.address, first + K),
+        number_at(waves.address, first + ALONG_COSINE),
+        number_at(waves.address, first + ALONG_SINE),
+        number_at(waves.address, first + NORMAL_COSINE),
+        number_at(waves.address, first + NORMAL_SINE),
     )
 
 
@@ -107,50 +128,40 @@ def add_harmonic(sums, harmonic, s, c):
 
 
 @compiled_inline
-def has_harmonics(c):
-    """Whether the plate's motion has harmonics."""
-    return c.harmonics > 0
-
-
-@compiled_inline
-def sums_of(c, sine, cosine):
-    """The Sums of a conveyor at the phase with a sine and cosine."""
+def sums_of(waves, sine, cosine):
+    """The Sums of Waves, or of None, at the phase with a sine and cosine."""
     sums = NO_SUMS
-    for h in range(c.harmonics):
-        harmonic = numbers_of(c, h)
-        sums = add_harmonic(sums, harmonic, *multiple(int(harmonic[K]), sine, cosine))
+    if waves is not None:
+        for h in range(waves.count):
+            harmonic = numbers_of(waves, h)
+            sums = add_harmonic(sums, harmonic, *multiple(int(harmonic[K]), sine, cosine))
     return sums
 
 
-@compiled
-def bounds(harmonics, a_z, omega):
-    """The Bounds of the plate's motion."""
+@compiled_inline
+def bounds(waves, a_z, omega):
+    """The Bounds of the motion of a plate with Waves, or None."""
     z = normal = jerk = along = rate = 1.0
-    for h in range(0, harmonics.size, NUMBERS):
-        k = harmonics[h + K]
-        share = math.hypot(harmonics[h + NORMAL_COSINE], harmonics[h + NORMAL_SINE])
-        z, normal, jerk = z + share / (k * k), normal + share, jerk + k * share
-        share = math.hypot(harmonics[h + ALONG_COSINE], harmonics[h + ALONG_SINE])
-        along, rate = along + share, rate + k * share
+    if waves is not None:
+        for h in range(waves.count):
+            k, along_cosine, along_sine, normal_cosine, normal_sine = numbers_of(waves, h)
+            share = math.hypot(normal_cosine, normal_sine)
+            z, normal, jerk = z + share / (k * k), normal + share, jerk + k * share
+            share = math.hypot(along_cosine, along_sine)
+            along, rate = along + share, rate + k * share
     return Bounds(a_z / (omega * omega) * z, a_z * normal, a_z * omega * jerk, along, rate)
 
 
 @compiled_inline
 def height(c, sine, cosine):
     """Position normal to the track, m."""
-    shape = cosine
-    if has_harmonics(c):
-        shape = shape + sums_of(c, sine, cosine).z
-    return -(c.a_z / (c.omega * c.omega) * shape)
+    return -(c.a_z / (c.omega * c.omega) * (cosine + sums_of(c.waves, sine, cosine).z))
 
 
 @compiled_inline
 def rise(c, sine, cosine):
     """Velocity normal to the track, m/s."""
-    shape = sine
-    if has_harmonics(c):
-        shape = shape + sums_of(c, sine, cosine).vz
-    return c.a_z / c.omega * shape
+    return c.a_z / c.omega * (sine + sums_of(c.waves, sine, cosine).vz)
 
 
 @compiled
@@ -162,10 +173,8 @@ def height_and_rise(c, sine, cosine):
 @compiled_inline
 def lift_share(c, sine, cosine):
     """Acceleration normal to the track, divided by a_z."""
-    shape = cosine
-    if has_harmonics(c):
-        shape = shape + sums_of(c, sine, cosine).az
-    return shape
+    # Certificates pass numbers whose sums have no float.
+    return cosine if c.waves is None else cosine + sums_of(c.waves, sine, cosine).az
 
 
 @compiled_inline
@@ -181,19 +190,15 @@ def surface(c, sine, cosine):
     The last bit of the height differs from `height`, because it is divided by ω twice. Results that have been published
     with the one or the other keep their digits.
     """
-    speed_z, z, vz = c.a_z / c.omega, cosine, sine
-    if has_harmonics(c):
-        added = sums_of(c, sine, cosine)
-        z, vz = z + added.z, vz + added.vz
-    return -speed_z / c.omega * z, speed_z * vz
+    speed_z, added = c.a_z / c.omega, sums_of(c.waves, sine, cosine)
+    return -speed_z / c.omega * (cosine + added.z), speed_z * (sine + added.vz)
 
 
 @compiled_inline
 def rise_between(c, from_sine, from_cosine, sine, cosine):
     """Change of the velocity normal to the track (m/s) from one phase to another."""
-    turn = sine - from_sine
-    if has_harmonics(c):
-        turn += sums_of(c, sine, cosine).vz - sums_of(c, from_sine, from_cosine).vz
+    # Without harmonics, the difference in brackets is 0.0, and the compiler drops it.
+    turn = sine - from_sine - (sums_of(c.waves, from_sine, from_cosine).vz - sums_of(c.waves, sine, cosine).vz)
     return c.a_z / c.omega * turn
 
 
@@ -292,18 +297,14 @@ def ahead(c, sine, cosine):
 @compiled_inline
 def speed(c, sine, cosine):
     """Velocity along the track, m/s."""
-    shape = ahead(c, sine, cosine)[0]
-    if has_harmonics(c):
-        shape = shape + sums_of(c, sine, cosine).vx
-    return c.a_x / c.omega * shape
+    return c.a_x / c.omega * (ahead(c, sine, cosine)[0] + sums_of(c.waves, sine, cosine).vx)
 
 
 @compiled_inline
 def speed_between(c, from_sine, from_cosine, sine, cosine):
     """Change of the velocity along the track (m/s) from one phase to another."""
     turn = ahead(c, sine, cosine)[0] - ahead(c, from_sine, from_cosine)[0]
-    if has_harmonics(c):
-        turn += sums_of(c, sine, cosine).vx - sums_of(c, from_sine, from_cosine).vx
+    turn -= sums_of(c.waves, from_sine, from_cosine).vx - sums_of(c.waves, sine, cosine).vx
     return c.a_x / c.omega * turn
 
 
@@ -311,18 +312,14 @@ def speed_between(c, from_sine, from_cosine, sine, cosine):
 def path_between(c, from_sine, from_cosine, sine, cosine):
     """Distance along the track (m) from one phase to another."""
     turn = ahead(c, sine, cosine)[1] - ahead(c, from_sine, from_cosine)[1]
-    if has_harmonics(c):
-        turn += sums_of(c, sine, cosine).x - sums_of(c, from_sine, from_cosine).x
+    turn -= sums_of(c.waves, from_sine, from_cosine).x - sums_of(c.waves, sine, cosine).x
     return -(c.a_x / c.omega / c.omega * turn)
 
 
 @compiled_inline
 def pull_share(c, sine, cosine):
     """Acceleration along the track, divided by a_x."""
-    shape = ahead(c, sine, cosine)[1]
-    if has_harmonics(c):
-        shape = shape + sums_of(c, sine, cosine).ax
-    return shape
+    return ahead(c, sine, cosine)[1] + sums_of(c.waves, sine, cosine).ax
 
 
 @compiled_inline
@@ -333,7 +330,7 @@ def keeps_direction(c, begin, end, turn):
 
     A fundamental alone keeps its sign where it has it at both ends of less than half a cycle.
     """
-    if has_harmonics(c):
+    if c.waves is not None:
         return begin * end > 0.0 and abs(begin) + abs(end) > c.bounds.pull_rate * turn
     return begin * end > 0.0 and turn < math.pi
 
@@ -396,13 +393,14 @@ def begin_waves(series, at, waves, lanes, harmonics, cos_shift, sin_shift, sine,
 
 
 @compiled_inline
-def write_waves(c, series, waves, lanes):
-    """Write the numbers of a conveyor's harmonics behind their rows."""
-    for h in range(c.harmonics):
-        row = rows_of_wave(waves, h, lanes)[2]
-        for number in numbers_of(c, h):
-            series[row] = number
-            row += lanes
+def write_waves(waves, series, first, lanes):
+    """Write the numbers of Waves behind their rows, of which `first` is the first one; nothing for None."""
+    if waves is not None:
+        for h in range(waves.count):
+            row = rows_of_wave(first, h, lanes)[2]
+            for number in numbers_of(waves, h):
+                series[row] = number
+                row += lanes
 
 
 @compiled_into_callers
@@ -416,28 +414,28 @@ def turned(series, w, cosine, sine, n):
     return cosine_w, sine_w
 
 
-@compiled_into_callers
-def begin_series(c, series, at, sine, cosine):
-    """Write the first coefficients of a step's rows for the plate."""
+@compiled_inline
+def begin_series(c, waves, series, at, sine, cosine):
+    """Write the first coefficients of a step's rows for a plate with Waves, or None."""
     series[at + SINE], series[at + COSINE] = sine, cosine
-    if has_harmonics(c):
-        write_waves(c, series, WAVES, ONE)
-        begin_waves(series, np.uint64(at), WAVES, ONE, c.harmonics, c.cos_shift, c.sin_shift, sine, cosine)
+    if waves is not None:
+        write_waves(waves, series, WAVES, ONE)
+        begin_waves(series, np.uint64(at), WAVES, ONE, waves.count, c.cos_shift, c.sin_shift, sine, cosine)
 
 
-@compiled_into_callers
-def extend_series(c, series, at, n):
+@compiled_inline
+def extend_series(c, waves, series, at, n):
     """Write coefficient n of LIFT_W and n + 1 of the plate's other rows, from the row W and coefficients up to n."""
     inverse = 1.0 / (n + 1)
     lift_w, sine_w = turned(series, at + W, at + COSINE, at + SINE, n)
     series[at + COSINE + n + 1] = -c.omega * sine_w * inverse
     series[at + SINE + n + 1] = c.omega * lift_w * inverse
-    if has_harmonics(c):
+    if waves is not None:
         pull_w = lift_w * c.cos_shift - sine_w * c.sin_shift
-        for h in range(c.harmonics):
+        for h in range(waves.count):
             cosine, sine, _ = rows_of_wave(WAVES, h, ONE)
             cosine_w, sine_w = turned(series, at + W, cosine, sine, n)
-            k, along_cosine, along_sine, normal_cosine, normal_sine = numbers_of(c, h)
+            k, along_cosine, along_sine, normal_cosine, normal_sine = numbers_of(waves, h)
             turn = k * c.omega * inverse
             series[place(cosine, n + 1)], series[place(sine, n + 1)] = -turn * sine_w, turn * cosine_w
             lift_w += normal_cosine * cosine_w - normal_sine * sine_w
@@ -448,18 +446,23 @@ def extend_series(c, series, at, n):
 
 
 @compiled_inline
-def series_length(series, at, lanes, tolerance):
-    """The s up to which the last terms of a step's velocities of the plate are below the tolerance."""
+def series_length(waves, series, at, lanes, tolerance):
+    """The s up to which the last terms of a step's velocities of the plate are below the tolerance; inf without waves.
+
+    The fundamental's terms are in contact.limiting_term.
+    """
+    if waves is None:
+        return math.inf
     normal, along = series[at + np.uint64(NORMAL + ORDER) * lanes], series[at + np.uint64(ALONG + ORDER) * lanes]
     last = max(abs(normal), abs(along))
     return (tolerance / last) ** (1.0 / ORDER) if last > 0.0 else math.inf
 
 
-@compiled_into_callers
-def expand_velocities(c, series, at, row, along, normal, speed, time):
+@compiled_inline
+def expand_velocities(c, waves, series, at, row, along, normal, speed, time):
     """Fill a row with the series of along ẋ_s + normal ż_s + speed v + time t along a step."""
-    straight, turned_part = along * c.a_x / c.omega, 0.0
-    if has_harmonics(c):
+    straight = along * c.a_x / c.omega
+    if waves is not None:
         for n in range(ORDER + 1):
             plate = straight * series[place(at + ALONG, n)] + normal * c.a_z / c.omega * series[place(at + NORMAL, n)]
             series[place(row, n)] = plate + speed * series[place(at + V, n)] + time * series[place(at + T, n)]
@@ -473,14 +476,14 @@ def expand_velocities(c, series, at, row, along, normal, speed, time):
             series[place(row, n)] += turned_part * series[place(at + COSINE, n)]
 
 
-@compiled_into_callers
-def add_pull(c, series, at, row, direction, slack):
+@compiled_inline
+def add_pull(c, waves, series, at, row, direction, slack):
     """Add the series of w (direction ẍ_s + slack) along a step to a row.
 
     The product of w and an acceleration is the derivative of the velocity in the variable s.
     """
     pull = direction * c.a_x
-    if has_harmonics(c):
+    if waves is not None:
         for n in range(ORDER):
             plate = pull / c.omega * (n + 1) * series[place(at + ALONG, n + 1)]
             series[place(row, n)] += plate + slack * series[place(at + W, n)]

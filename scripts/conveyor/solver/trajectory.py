@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from . import contact, pieces, repeated_steps
+from . import contact, pieces, plate, repeated_steps
 from .arrivals import EVERY_CYCLE, first_block, has_arrived, record_arrivals, skip_blocks
 from .horizontal import Horizontal, follow_horizontal, touch_down
 from .jit import compiled, no_refcount
@@ -66,7 +66,7 @@ def integrate(
     # `follow` expects results of zero.
     follow(
         parameters,
-        (tolerance, feeding, reuse, repetition),
+        (tolerance, feeding, reuse, repetition, plate.count_harmonics(parameters)),
         records,
         distances,
         contact.workspace(repeated_steps.PLACES),
@@ -80,7 +80,7 @@ def follow(parameters, options, records, distances, series):
 
     Parameters
     ----------
-    options : tolerance, feeding, reuse and repetition, see `integrate`
+    options : tolerance, feeding, reuse and repetition, see `integrate`; plate.count_harmonics
     records : the fields of a Record but `distances`, each with one more axis in front, that of the runs
     distances : see `integrate`
     series : a workspace with repeated_steps.PLACES steps
@@ -88,11 +88,11 @@ def follow(parameters, options, records, distances, series):
     Only Python calls this function, because numba would compile the whole solver again into each compiled caller. The
     loop over the runs is here for the same reason: as a function of its own, it would take 3 s more to compile.
     """
-    tolerance, feeding, reuse, repetition = options
+    tolerance, feeding, reuse, repetition, harmonics = options
     times, since, samples, event_times, event_kinds, arrivals, results = no_refcount(records)
     series, distances = no_refcount((series, distances))
     for i in range(parameters.shape[0]):
-        c = contact.constants(parameters[i], tolerance)
+        c = contact.compute_constants(parameters[i], tolerance, harmonics)
         repeated_steps.forget(series)
         motion, clock = pieces.begin(c, parameters[i, Z0], parameters[i, VZ0])
         record = no_refcount(

@@ -28,7 +28,7 @@ def fill(flat, memory, lane, c):
 
 @functools.cache
 def step_for(harmonics):
-    """`contact_lanes.step` for plates with a number of harmonics."""
+    """`contact_lanes.step` for plates with a number of harmonics, or None."""
 
     @numba.njit(error_model="numpy")
     def step(memory, lanes):
@@ -74,9 +74,9 @@ def random_contacts(count, seed, harmonics=0):
     return rows, constants, w, v, rng.uniform(0.0, 2.0 * np.pi, count)
 
 
-@pytest.mark.parametrize(("lanes", "harmonics"), [(1, 0), (2, 0), (4, 0), (8, 0), (1, 1), (8, 1), (8, 3)])
+@pytest.mark.parametrize(("lanes", "harmonics"), [(1, None), (2, None), (4, None), (8, None), (1, 1), (8, 1), (8, 3)])
 def test_steps_have_the_bits_of_single_ones(lanes, harmonics):
-    _, constants, w, v, phase = random_contacts(400, lanes, harmonics)
+    _, constants, w, v, phase = random_contacts(400, lanes, harmonics or 0)
     series = contact.workspace()
     taken = 0
     for first in range(0, 400, lanes):
@@ -108,14 +108,14 @@ def test_steps_have_the_bits_of_single_ones(lanes, harmonics):
 
 def test_a_step_stays_where_no_time_or_no_step_is_left_or_what_is_not_a_number():
     _, (c,), *_ = random_contacts(1, seed=0)
-    flat, memory = contact_lanes.new_memory(contact_lanes.row_count(0))
+    flat, memory = contact_lanes.new_memory(contact_lanes.row_count(None))
     for lane in range(4):
         fill(flat, memory, lane, c)
         memory[[W, V, SINE, COSINE, TIME, END], lane] = c.scale_w, 0.0, 0.0, 1.0, 0.0, 1.0
     memory[END, 1] = 0.0
     memory[STEPS, 2] = MAX_PIECES
     memory[V, 3] = np.nan
-    assert step_for(0)(flat, 4) == 0b1110
+    assert step_for(None)(flat, 4) == 0b1110
 
 
 def test_what_can_be_followed_in_lanes():

@@ -190,6 +190,17 @@ def test_harmonic_without_amplitude_changes_nothing():
     assert other.max_gap == pytest.approx(plain.max_gap, rel=1e-12)
 
 
+def test_a_table_may_hold_plates_with_and_without_harmonics():
+    """Plates of one table have the same number of harmonics; those of a pure plate have no amplitude."""
+    pure, harmonic = Conveyor(acceleration=45.0), Conveyor(acceleration=45.0, harmonics=[{"order": 2, "normal": 0.1}])
+    table = parameter_table(harmonic, z0=[3e-4, 3e-4])
+    table["harmonics"][1, 1:] = 0.0
+    runs = sweep(table, duration=0.1, tolerance=1e-13)
+    assert runs.mean_velocity[0] == simulate(harmonic, Start(z=3e-4), duration=0.1, tolerance=1e-13).mean_velocity()
+    (alone,) = sweep(parameter_table(pure, z0=[3e-4]), duration=0.1, tolerance=1e-13).mean_velocity
+    assert runs.mean_velocity[1] == pytest.approx(alone, rel=1e-11)
+
+
 @st.composite
 def harmonics(draw):
     orders = draw(st.lists(st.integers(2, 20), min_size=1, max_size=4, unique=True))

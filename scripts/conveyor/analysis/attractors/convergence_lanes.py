@@ -12,7 +12,6 @@ from collections import namedtuple
 
 import numpy as np
 
-from ...parameters import PARAMETERS
 from ...solver import contact, contact_lanes, pieces, plate, vertical
 from ...solver.contact_lanes import COSINE, END, LANES, LENGTH, NONE, SINE, STEPS, TIME, V, W
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
@@ -100,7 +99,7 @@ def begin_cycle(c, state, lane, steps, cycle):
 
 @functools.cache
 def compiled_for(harmonics):
-    """The compiled part of `follow_all_to_attractors` for plates with a number of harmonics."""
+    """The compiled part of `follow_all_to_attractors` for plates with a number of harmonics, or None."""
 
     @compiled
     def follow(parameters, tolerance, search, ends, side_by_side, work):
@@ -116,7 +115,7 @@ def compiled_for(harmonics):
         """
         parameters, search, ends = no_refcount((parameters, search, ends))
         memory, steps, cycle, trajectories, series, histories, counters = no_refcount(work)
-        constants = [contact.constants(parameters[0], tolerance)] * LANES
+        constants = [contact.compute_constants(parameters[0], tolerance, harmonics)] * LANES
         waiting = running = 0
         stopped = (1 << LANES) - 1  # a bit for each lane
         while True:
@@ -144,7 +143,7 @@ def compiled_for(harmonics):
                         i = trajectories[lane]
                         if i == NONE:
                             break
-                        c = constants[lane] = contact.constants(parameters[i], tolerance)
+                        c = constants[lane] = contact.compute_constants(parameters[i], tolerance, harmonics)
                         motion = begin_trajectory(c, parameters[i], lane, memory, steps, cycle, counts)
                     if (
                         side_by_side
@@ -177,7 +176,7 @@ def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows
     """
     ends = convergence.new_trajectories(len(parameters))
     if len(parameters) > 0:
-        harmonics = (parameters.shape[1] - len(PARAMETERS)) // plate.NUMBERS
+        harmonics = plate.count_harmonics(parameters)
         strobes = np.empty((len(parameters), 0, 2)) if strobes is None else strobes
         trajectories, side_by_side = np.full(LANES, NONE), len(parameters) >= SIDE_BY_SIDE
         work = (

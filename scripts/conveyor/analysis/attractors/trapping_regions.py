@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from ... import linear_algebra
-from ...solver import contact, contact_law
+from ...solver import contact, contact_law, plate
 from ...solver.jit import compiled
 from ...solver.model import PSI0
 from ...solver.pieces import BEGIN_OF_CYCLE
@@ -45,12 +45,13 @@ NO_REGION = np.full(3, math.inf)  # the factor of an orbit without a trapping re
 
 
 @compiled
-def comes_inside(parameters, tolerance, centre, factor, period, radius, inner, periods=PERIODS):
+def comes_inside(parameters, tolerance, harmonics, centre, factor, period, radius, inner, periods=PERIODS):
     """Whether the image of an ellipse of a `radius` around a point of an orbit comes inside a smaller ellipse.
 
     All points must be inside after the same number of periods. The curve is then inside if the distance between
     neighbouring points is smaller than the distance of each point from the smaller ellipse.
 
+    harmonics : as from plate.count_harmonics
     centre, factor : see AttractingOrbits
     period : excitation cycles, of the orbit
     inner : radius of the smaller ellipse
@@ -61,7 +62,7 @@ def comes_inside(parameters, tolerance, centre, factor, period, radius, inner, p
     inside : whether it does
     cycles : excitation cycles that all points of the curve were followed for
     """
-    c, series = contact.constants(parameters, tolerance), contact.workspace()
+    c, series = contact.compute_constants(parameters, tolerance, harmonics), contact.workspace()
     no_tangent, features = np.empty((0, 2)), np.zeros(stroboscopic_map.FEATURES)
     states, images = np.empty((POINTS, 2)), np.empty((POINTS, 2))
     for i in range(POINTS):
@@ -192,11 +193,12 @@ def find_trapping_region(
     if norm is None:
         return None, 0
     factor = (norm / unit)[np.triu_indices(2)]
-    radius, growth, spent = 0.5 * SMALLEST, 2.0, 0
+    radius, growth, spent, harmonics = 0.5 * SMALLEST, 2.0, 0, plate.count_harmonics(parameters)
     while growth * radius <= LARGEST and spent < most:
         if growth <= (FINE_GROWTH if spent < FINE_SHARE * most else LEAST_GROWTH):
             break
-        inside, cycles = comes_inside(parameters, tolerance, centre, factor, period, growth * radius, radius, periods)
+        radii = growth * radius, radius
+        inside, cycles = comes_inside(parameters, tolerance, harmonics, centre, factor, period, *radii, periods)
         spent += cycles
         if inside:
             radius *= growth

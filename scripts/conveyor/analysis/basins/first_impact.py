@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...packing import check_rows
-from ...solver import contact
+from ...solver import contact, plate
 from ...solver.flight import Flight, next_impact
 from ...solver.jit import compiled
 from ...solver.model import VZ0, Z0
@@ -27,11 +27,14 @@ class FirstImpact(NamedTuple):
 
 
 @compiled
-def find_first_impacts(parameters):
-    """Times, velocities and phases, float64, shape (n, 3), for `parameters`, shape (n, 16)."""
+def find_first_impacts(parameters, harmonics):
+    """Times, velocities and phases, float64, shape (n, 3), for `parameters`, shape (n, 16).
+
+    harmonics : as from plate.count_harmonics
+    """
     out = np.full((len(parameters), 3), np.nan)
     for i in range(parameters.shape[0]):
-        c = contact.constants(parameters[i], 1e-10)
+        c = contact.compute_constants(parameters[i], 1e-10, harmonics)
         theta, vz = c.psi0, parameters[i, VZ0]
         q, rate = begin(c, parameters[i, Z0], vz, theta)
         if q < 0.0:
@@ -55,7 +58,8 @@ def first_impacts(parameters: np.ndarray) -> FirstImpact:
     >>> bool(abs(impacts.velocity[0] + 9.81 * impacts.time[0]) < 1e-12)  # free fall
     True
     """
-    return FirstImpact(*find_first_impacts(check_rows(parameters)[0]).T)
+    rows, _ = check_rows(parameters)
+    return FirstImpact(*find_first_impacts(rows, plate.count_harmonics(rows)).T)
 
 
 def on_conveyor(parameters: np.ndarray, impacts: FirstImpact) -> np.ndarray:

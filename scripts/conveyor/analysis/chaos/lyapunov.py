@@ -14,7 +14,7 @@ from ...columns import Columns
 from ...packing import check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
-from ...solver import contact, contact_law
+from ...solver import contact, contact_law, plate
 from ...solver.jit import compiled
 from ...solver.model import FREQUENCY, PSI0
 from ...solver.pieces import BEGIN_OF_CYCLE
@@ -39,7 +39,7 @@ SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs fr
 
 
 @compiled
-def fill_stretches(parameters, state, tolerance, phase, transient, stretches, contact_times):
+def fill_stretches(parameters, state, tolerance, harmonics, phase, transient, stretches, contact_times):
     """Follow a trajectory, and the stretching of its perturbations in each cycle; a code of status.STATUS.
 
     Parameters
@@ -47,11 +47,12 @@ def fill_stretches(parameters, state, tolerance, phase, transient, stretches, co
     parameters : float64, shape (16,)
     state : float64, shape (2,), δ (m) and v (m/s) at the `phase` (rad); replaced by the last state
     tolerance : of the contact steps
+    harmonics : as from plate.count_harmonics
     transient : excitation cycles that are discarded
     stretches : float64, shape (cycles, 2), see stretching, to fill up to a failure
     contact_times : float64, shape (cycles,), s, to fill up to a failure
     """
-    c = contact.constants(parameters, tolerance)
+    c = contact.compute_constants(parameters, tolerance, harmonics)
     series = contact.workspace()
     features = np.zeros(stroboscopic_map.FEATURES)
     discarded = np.empty(2)
@@ -133,12 +134,13 @@ def lyapunov_spectrum(
     stretches = np.full((len(parameters), blocks * cycles, 2), np.nan)
     contact_times = np.full((len(parameters), blocks * cycles), np.nan)
     codes = np.zeros(len(parameters), dtype=np.int64)
+    harmonics = plate.count_harmonics(parameters)
     phases = np.full(len(parameters), BEGIN_OF_CYCLE) if begin_of_cycle else parameters[:, PSI0]
 
     def work(begin, end):
         for i in range(begin, end):
             own = stretches[i], contact_times[i]
-            codes[i] = fill_stretches(parameters[i], states[i], tolerance, phases[i], transient, *own)
+            codes[i] = fill_stretches(parameters[i], states[i], tolerance, harmonics, phases[i], transient, *own)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
     period = 1.0 / parameters[:, FREQUENCY]
