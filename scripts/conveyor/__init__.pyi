@@ -22,6 +22,10 @@ from .packing import (
     replace_parameters as replace_parameters,
 )
 
+# Contacts from materials, and from how high a part bounces
+from .materials import Material as Material, hertz_stiffness as hertz_stiffness, material as material
+from .impact import damping_of as damping_of, restitution as restitution
+
 # Trajectories: one, or one for each row of a table
 from .simulation import Run as Run, simulate as simulate
 from .ensemble import (

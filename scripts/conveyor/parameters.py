@@ -5,6 +5,7 @@ This module imports nothing slow, so that a program can check its settings witho
 
 import math
 from collections.abc import Mapping
+from numbers import Real
 
 DEFAULT_TOLERANCE = 3e-10  # relative error per Taylor step
 DEFAULT_STEP = 5e-7  # s, Sect. 3 of the paper
@@ -83,3 +84,21 @@ def normal_gravity(model: Mapping[str, float]) -> float:
 
 # Methods with a fixed step. The position of a name is its code in compiled functions.
 FIXED_STEP_METHODS = ("euler", "semi_implicit_euler", "rk4")
+
+
+def check_above_zero(name: str, value: object, high: float, unit: str = "") -> float:
+    """`value` as a float; ValueError unless it is a number in (0, high]. As arguments.check_number, without NumPy.
+
+    Examples
+    --------
+    >>> check_above_zero("radius", 2, 10.0, "m")
+    2.0
+    """
+    try:
+        # A truth value and, to NumPy, a time span are whole numbers.
+        number = float(value) if isinstance(value, Real) and not isinstance(value, bool) else math.nan
+    except (TypeError, OverflowError):
+        number = math.nan
+    if not 0.0 < number <= high:
+        raise ValueError(f"{name} = {value!r} must be a number in (0, {high:g}] {unit}".rstrip())
+    return number

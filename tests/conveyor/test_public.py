@@ -72,6 +72,9 @@ FUNCTIONS = {
     "correlation_dimension": {"points": POINTS, "theiler": 0},
     "Conveyor": {name: getattr(CONVEYOR, name) for name in (*NUMBERS, "tension")},
     "Start": {"z": 0.0, "vz": 0.0},
+    "restitution": {"conveyor": Conveyor(), "speed": 0.3},
+    "damping_of": {"restitution": 0.5, "speed": 0.3, "conveyor": Conveyor()},
+    "hertz_stiffness": {"part": "steel", "lining": (1e9, 0.4), "radius": 1e-3},
 }
 # A perturbation underflows within one cycle.
 OVERDAMPED = {

@@ -1,6 +1,6 @@
 """The contact law F_c = k_c δ^p + d_c δ̇, in every form in which the solver needs it.
 
-A change of the law begins here: `spring_and_damper` is the law itself, which the other methods
+A change of the law begins here: `law.spring_and_damper` is the law itself, which the other methods and `impact`
 call, too. `next_speed` is its part in the Taylor recurrences of the motion in the plate. The other functions are its
 series along a contact step, its rate, its energy and a bound on its tension, its linearisation, and its dimensionless
 groups.
@@ -18,7 +18,7 @@ follows from the recurrence of a power.
 
 import numpy as np
 
-from . import model, plate
+from . import law, model, plate
 from .jit import compiled, compiled_inline, compiled_into_callers, fma
 from .plate import numbers_at, rows_of_wave  # noqa: F401 - for generated code
 from .polynomial import ORDER, SIZE, place
@@ -33,10 +33,7 @@ ETA, ZETA, RATE = range(3)
 POWERS_IN_DAMPING = (1, 1, 0)
 
 
-@compiled_inline
-def spring_and_damper(elastic, damping, speed):
-    """F_c of a closed contact from k_c δ^p, d_c and δ̇ (Eq. 7), or F_c/m from these values per mass."""
-    return elastic + damping * speed
+spring_and_damper = compiled_inline(law.spring_and_damper)
 
 
 @compiled_inline
