@@ -30,7 +30,7 @@ WRONG = [
     ({"parts": {"calibrated": True}}, "parts.calibrated needs measurements; name the config with"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
-    ({"drive": {"velocity": "2 cm/s"}}, "drive.velocity = '2 cm/s' should be a valid number (m/s)"),
+    ({"drive": {"velocity": "2 cm"}}, "drive.velocity = '2 cm' has a unit of another dimension; give m/s"),
     ({"transit": {"acceleration": {"num": 1}}}, "has num: 1 for two ends; give more values, or a list such as [19.0]"),
 ]
 

@@ -12,7 +12,7 @@ from conveyor_pipeline.config import canonical, problems
 CONFIG = read_config()
 # Values that are invalid wherever another value of the same type is valid.
 WRONG = {
-    float: ["abc", "5e5 m", math.nan, math.inf, -math.inf, [], {}, True, 10**400],
+    float: ["abc", "5e5 furlong", math.nan, math.inf, -math.inf, [], {}, True, 10**400],
     int: ["abc", "5e5 m", math.nan, math.inf, 2.5, [], {}, True, -(10**30), 10**400],
     str: [5, None, [], {}, True, math.nan],
     list: [None, "abc", {}, 3, [None], [[1, 2], [3]], {"a": 1}],

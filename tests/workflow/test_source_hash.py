@@ -21,6 +21,7 @@ CALLS = {
         "paper/sweeps/shards",
     },
     "machine/operating/advice": {"machine/operating/transit"},
+    "machine/contact/variants": {"machine/operating/transit"},
     "machine/operating/drift": {"machine/operating/transit"},
     "machine/operating/track": {"machine/operating/shares"},
     "machine/operating/drive": {"machine/operating/transit"},
@@ -157,8 +158,8 @@ def test_every_package_behind_a_number_or_a_picture_counts():
 def test_checks_of_the_config_rerun_nothing():
     files = [path for path in source_hash.SCRIPTS.rglob("*.py") if path.name != "settings.py"]
     scripts = {str(path.relative_to(source_hash.SCRIPTS).with_suffix("")) for path in files}
-    # Pages show the comments of the config files and where the workflow puts its tables; a stage reads the examples.
-    readers = ("pages/article", "pages/config_keys", "pages/pages", "pages/tables_page", "machine/operating/throws")
+    # Pages show the comments of the config files and where the workflow puts its tables.
+    readers = ("pages/article", "pages/config_keys", "pages/pages", "pages/tables_page")
     # What the Snakefile imports, but no job.
     checks = {script for script in scripts if "/config/" in script or script.endswith(("/checks", "/budgeted"))}
     assert len(checks) > 10

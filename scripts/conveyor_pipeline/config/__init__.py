@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from conveyor_pipeline.config.checks import problems
+from conveyor_pipeline.config.derived import with_derived
 from conveyor_pipeline.config.entries import MEASURED_FILES, by_methods, with_tighter
 from conveyor_pipeline.config.errors import ConfigError, type_problems
 from conveyor_pipeline.config.files import merge, name_lines, read_all
@@ -25,11 +26,11 @@ class Loaded(NamedTuple):
 
 
 def canonical(config: dict) -> dict:
-    """A valid config in its one form: SI units, keys in the order of the model, numbers in the types of the model.
+    """A valid config in its one form: SI units, derived values, keys in the order and numbers in the types of MODEL.
 
     The entries of a section and the axes of an entry keep their order, which has a meaning.
     """
-    return MODEL.validate_python(to_si(MODEL.validate_python(config)))
+    return MODEL.validate_python(with_derived(to_si(MODEL.validate_python(config))))
 
 
 def name_measurements(config: dict, files: Sequence[str | Path], contents: list[dict]) -> None:

@@ -11,6 +11,7 @@ import sys
 from collections.abc import Iterator
 
 from conveyor_pipeline.config import ConfigError, load_config
+from conveyor_pipeline.config.derived import origins_of
 from conveyor_pipeline.config.errors import format_key
 from conveyor_pipeline.config.files import DEFAULT_FILES, USER_FILE, find_lines
 
@@ -31,8 +32,13 @@ def show(config: dict, stated: dict, files: list[str]) -> Iterator[str]:
     """
     lines = {path: line for file in files for path, line in find_lines(file).items()}
     texts = dict(values_of(stated))
+    # The keys that a derived parameter of the model follows from are in its section.
+    derived = {("model", name): (section,) for name, section in origins_of(config).items()}
     for path, value in values_of(config):
-        origin = next(lines[path[:end]] for end in range(len(path), 0, -1) if path[:end] in lines)
+        at = derived.get(path, path)
+        origin = next(lines[at[:end]] for end in range(len(at), 0, -1) if at[:end] in lines)
+        if path in derived:
+            origin += f": from the section {at[0]}"
         if isinstance(texts.get(path), str) and texts[path] != value:
             origin += f": {texts[path]}"
         yield f"{format_key(path)} = {json.dumps(value, ensure_ascii=False)}    # {origin}"

@@ -10,6 +10,7 @@ from functools import cache
 from importlib import import_module
 
 from conveyor_pipeline.common.quantities import STIFFNESS, exponent_of, is_quantity
+from conveyor_pipeline.config.derived import faults_of_derived, with_derived
 from conveyor_pipeline.config.entries import (
     ENTRIES,
     FIGURES,
@@ -248,4 +249,7 @@ def problems(config: dict, defaults: dict | None = None, stated: dict | None = N
     # Converted values have the limits of their SI units, and a partial axis has what the default gives.
     if errors := type_problems(typed := to_si(typed)):
         return errors
+    if faults := list(faults_of_derived(typed, defaults, stated or {})):
+        return faults
+    typed = with_derived(typed)
     return list(dict.fromkeys(line for check in all_checks() for line in check(typed, defaults, stated or {})))

@@ -80,7 +80,8 @@ def explain(error: dict, config: Any) -> str:
     if kind == "value_error":
         return f"{shown} {error['ctx']['error']}"
     if kind == "string_pattern_mismatch":
-        return f"{shown} should be {schema['patternErrorMessage']}"
+        (expected,) = {one["patternErrorMessage"] for one in options_of(schema) if "patternErrorMessage" in one}
+        return f"{shown} should be {expected}"
     if kind == "dict_type" and value is None and path:
         return f"{key} is empty; give keys below it, or delete it"
     if kind == "string_type" and isinstance(value, int | float):

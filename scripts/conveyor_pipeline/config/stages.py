@@ -5,7 +5,7 @@ from importlib import import_module
 # To remove the floor machine or study, delete its line here and the folders of its name (see CONTRIBUTING.md).
 FLOORS = {
     "paper": ("sweeps", "motion", "orbits", "dimensions", "fit", "sensitivity", "claims"),
-    "machine": ("operating", "excitation", "calibration"),
+    "machine": ("operating", "contact", "excitation", "calibration"),
     "study": ("accuracy",),
 }
 # The packages of all stages. A stage may import the earlier ones of its floor and of the floor paper.

@@ -49,6 +49,15 @@ def durations(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
             yield f"{key} = {longest!r} s {reason}; give more"
 
 
+def supply(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    own, frequency = config["supply"], config["model"]["frequency"]
+    is_given = own != defaults["supply"] or stated.get("supply", own) != own
+    if "resonance" not in own and is_given:
+        yield "supply.resonance is missing; without it, the range of the amplitude is not known"
+    if "resonance" in own and own["frequency"] >= frequency:
+        yield f"supply.frequency = {own['frequency']!r} Hz is not below model.frequency = {frequency!r} Hz; give less"
+
+
 def calibration(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Settings that contradict each other, and faults in the file of measurements."""
     own = config["calibration"]
@@ -97,4 +106,4 @@ def excitation(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         yield from error.faults
 
 
-CHECKS = (transit_amplitudes, numbers_of_runs, durations, calibration, excitation)
+CHECKS = (transit_amplitudes, numbers_of_runs, durations, supply, calibration, excitation)

@@ -38,11 +38,17 @@ def describe_range(schema: dict) -> str:
     return f"number in {ends[0]}{low:g}, {high:g}{ends[1]}"
 
 
+def describe_option(schema: dict) -> str:
+    """One of several forms of a value in words; a mapping by its keys."""
+    described = describe_values(schema)
+    return f"{{{', '.join(schema['properties'])}}}" if described == "keys below" else described
+
+
 def describe_values(schema: dict) -> str:
     """The allowed values of a key in words."""
     options = options_of(schema)
     if len(options) > 1:
-        return ", or ".join(describe_values(option) for option in options)
+        return ", or ".join(describe_option(option) for option in options)
     match options[0]:
         case {"patternErrorMessage": expected}:
             return expected

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 from project import ROOT, si_config
 
 from conveyor import Columns, Conveyor, Start, classify, ensemble, parameter_table, plate_motion, simulate
@@ -564,7 +563,7 @@ def test_advice_has_the_measures_of_its_amplitude_and_of_changed_conveyors():
     table.attrs = settings
     shares_table = pd.DataFrame({"acceleration": [39.0, 39.0, 81.0], "state": ["first", "second", "chaos"]})
     shares_table = shares_table.assign(share=[0.3, 0.7, 1.0])
-    found = advice.make(table, shares_table, {"margin": 0.01, "changes": {"friction": 0.02}})
+    found = advice.make(table, shares_table, {"range": [0.99, 1.01], "changes": {"friction": 0.02}})
     told, changes = pd.DataFrame(found["advice"]), pd.DataFrame(found["changes"])
     fast = told.iloc[0]
     own = table[(table.population == "varied") & (table.acceleration == fast.acceleration)].iloc[0]
@@ -591,7 +590,7 @@ def test_changes_are_for_the_same_calibrated_parts():
     table = transit.measure(np.array([40.0, 80.0]), own)
     table.attrs = settings
     shares_table = pd.DataFrame({"acceleration": [40.0], "state": ["first"], "share": [1.0]})
-    found = advice.make(table, shares_table, {"margin": 0.0, "changes": {"friction": 0.0}}, *calibration)
+    found = advice.make(table, shares_table, {"range": [1.0, 1.0], "changes": {"friction": 0.0}}, *calibration)
     changes = pd.DataFrame(found["changes"])
     assert len(changes) > 0 and (changes.gain == 0.0).all() and (changes.widening == 0.0).all()
 
@@ -758,7 +757,7 @@ def test_conveyors_with_equal_groups_have_equal_motions_over_the_throw_number():
     }
     settings = {**BOX, "throw_number": {"start": 0.5, "stop": 1.1, "num": 3}, "starts": 32}
     settings["model"] = {name: getattr(paper, name) for name in ("frequency", "gravity", "inclination", "angle")}
-    found = throws.make([yaml.safe_dump({"prefix": "other", "model": example})], settings)
+    found = throws.make({"other": example}, settings)
     one, other = (found[found.conveyor == name].sort_values(["vertical", "starts"]) for name in ("paper", "other"))
     assert one.vertical.unique() == pytest.approx([0.5, 0.8, 1.1])
     assert other.vertical.tolist() == pytest.approx(one.vertical.tolist())
@@ -772,3 +771,25 @@ def test_differences_of_parts_that_no_overlay_states_are_assumed():
     assert settings.assumed_parts(config, {}) == ["friction", "damping", "stiffness", "mass", "acceleration"]
     stated = {"prefix": "mine", "parts": {"friction": 0.15, "mass": 0.0}}
     assert settings.assumed_parts(config, stated) == ["damping", "stiffness", "acceleration"]
+
+
+def test_the_chart_says_what_the_supply_does_and_how_exactly_a_controller_must_hold_the_amplitude(refined):
+    rows, advice_rows, changes = advised()
+    assert "What the supply does" not in page_of(refined, [rows, advice_rows, changes])
+    own = {"voltage": 0.05, "frequency": 0.5, "resonance": 52.0, "damping_ratio": 0.02, "force": "voltage²"}
+    attrs = {**advice_rows.attrs, "range": [0.74, 1.38], "supply": own}
+    held = {"lowest": 22.9, "highest": 42.8, "worst": 38.0, "held_low": 30.0, "held_high": 32.5}
+    advice_rows = advice_rows.assign(**held)
+    advice_rows.attrs = attrs
+    page = " ".join(page_of(refined, [rows, advice_rows, changes]).split())
+    assert (
+        "its resonance at 52 Hz (damping ratio 0.02). At 50 Hz, a force drives it that grows with the square of" in page
+    )
+    assert (
+        "The voltage may differ by 5 % and the frequency by 0.5 Hz, so that the amplitude is 0.74 to 1.38 times" in page
+    )
+    assert "Set to 31 m/s² (fast), the plate has 22.9 to 42.8 m/s². At worst, at 38 m/s², the slowest 5 %" in page
+    assert "have 1 cm/s instead of 2 cm/s. To keep 90 % of these, a controller must hold the amplitude between" in page
+    assert "between 30 and 32.5 m/s² (-3.2 % to +4.8 %)" in page
+    assert "% too large or too small" not in page
+    assert "as far off as the supply makes it (-26 % to +38 %)" in page

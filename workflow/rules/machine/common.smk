@@ -1,5 +1,8 @@
-# Measured files of the machine.
+# Measured files of the machine, and models of the examples.
+from conveyor_pipeline.common.table_settings import INITIAL_CONDITION, model_of
 from conveyor_pipeline.config.entries import MEASURED_FILES
+
+EXAMPLES = ("bowl", "linear", "trough")  # complete conveyors in config/examples
 
 MEASURED = {section: config[section].get(key) for section, key in MEASURED_FILES.items()}
 # Errors for a config without such a file.
@@ -20,3 +23,10 @@ def measured_file(section):
         return MEASURED[section]
 
     return file
+
+
+def models_of_examples(wildcards):
+    """A param: the models of the examples, without amplitude and initial condition, by name."""
+    files = {name: ROOT / f"config/examples/{name}.yaml" for name in EXAMPLES}
+    configs = {name: load_config(DEFAULT_FILES, [file], {}).merged for name, file in files.items()}
+    return {name: model_of(own, without=INITIAL_CONDITION) for name, own in configs.items()}

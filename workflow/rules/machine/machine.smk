@@ -9,11 +9,12 @@ NO_FIGURES |= {section: reason for section, reason in NOT_MEASURED.items() if no
 
 
 include: "operating.smk"
+include: "contact.smk"
 include: "excitation.smk"
 include: "calibration.smk"
 
 
-MACHINE_FILES = [*OPERATING_FILES, *EXCITATION_FILES, *CALIBRATION_FILES]
+MACHINE_FILES = [*OPERATING_FILES, *CONTACT_FILES, *EXCITATION_FILES, *CALIBRATION_FILES]
 FLOOR_FILES += MACHINE_FILES
 
 

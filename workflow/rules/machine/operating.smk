@@ -86,8 +86,6 @@ rule advice:
 
 rule throws:
     """Motions of several conveyors over the throw number."""
-    input:
-        examples=[source(f"config/examples/{name}.yaml") for name in ("bowl", "linear", "trough")],
     output:
         **tables_of("operating/throws"),
     log:
@@ -97,6 +95,7 @@ rule throws:
     threads: THREADS
     params:
         **stage("conveyor_pipeline.machine.operating.throws", "operating/throws"),
+        models=models_of_examples,
     script:
         "../../../scripts/conveyor_pipeline/make.py"
 

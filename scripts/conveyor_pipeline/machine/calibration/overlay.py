@@ -22,6 +22,10 @@ def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
         f"  {row.parameter}: {row.best:.{DIGITS - 1}e}   # {row.unit}, {row.status}: {row.low:.3g} to {row.high:.3g}"
         for row in parameters.itertuples()
     ]
+    # Measured velocities replace what materials and a drop say.
+    sources = {"stiffness": ("part", "lining", "radius"), "damping": ("restitution",)}
+    replaced = [f"{key}: null" for name in parameters.parameter for key in sources.get(name, ())]
+    contact = [f"contact: {{{', '.join(replaced)}}}"] if replaced else []
     head = (
         f"# Calibrated from {settings['measurements']}. Name this file behind the overlay that names the measurements."
     )
@@ -30,4 +34,4 @@ def make(parameters: pd.DataFrame, fit: pd.DataFrame) -> str:
     parts = (
         "parts: {calibrated: true}   # the transit of parts draws these parameters from the samples of the calibration"
     )
-    return "\n".join([head, "model:", *lines, parts, ""])
+    return "\n".join([head, "model:", *lines, *contact, parts, ""])

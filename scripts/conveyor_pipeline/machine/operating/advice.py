@@ -2,7 +2,8 @@
 
 There are two aims. `fast`: the 5 % quantile of the transit velocity is largest, so that nearly all parts are fast.
 `even`: the relative spread is least among the amplitudes with at least half of that quantile. Both must hold within a
-relative margin of the amplitude, because no drive holds its amplitude exactly. The parts are the varied ones.
+range of the amplitude, because no drive holds its amplitude exactly: a margin, or what its supply does. The parts are
+the varied ones.
 """
 
 from collections.abc import Callable
@@ -25,6 +26,8 @@ from conveyor_pipeline.machine.operating.transit import (
 
 FAST, EVEN = "fast", "even"
 RESAMPLES = 400  # of the parts, for the standard errors of changes
+KEPT = 0.9  # of the 5 % quantile at the advised amplitude, which a controller must keep
+HALVINGS = 6  # of the step between two amplitudes, to find how far the amplitude may be off
 ENOUGH = 0.5  # of the largest 5 % quantile, which an even amplitude must have
 AIM = fields.text("aim", f"{FAST}: largest 5 % quantile of the transit velocity, {EVEN}: least relative spread")
 TABLES = {
@@ -33,9 +36,14 @@ TABLES = {
         fields.number("acceleration", "m/s²", "recommended amplitude of the excitation"),
         fields.number("throw_number", "1", "throw number Γ"),
         *MEASURES,
-        fields.number("velocity_worst", "m/s", "smallest 5 % quantile of the velocity within the margin"),
-        fields.number("spread_worst", "1", "largest relative spread within the margin"),
-        fields.number("back_worst", "1", "largest share of parts that have moved back within the margin"),
+        fields.number("lowest", "m/s²", "lowest amplitude of the range within which the advice must hold"),
+        fields.number("highest", "m/s²", "highest amplitude of this range"),
+        fields.number("velocity_worst", "m/s", "smallest 5 % quantile of the velocity within the range"),
+        fields.number("worst", "m/s²", "amplitude with this quantile"),
+        fields.number("spread_worst", "1", "largest relative spread within the range"),
+        fields.number("back_worst", "1", "largest share of parts that have moved back within the range"),
+        fields.number("held_low", "m/s²", f"lowest amplitude down to which {KEPT:g} of the 5 % quantile is kept"),
+        fields.number("held_high", "m/s²", "the highest one; both are null if the config states no supply"),
         fields.text("states", "states of motion at the nearest amplitude of the table of shares, with their shares"),
         fields.number("states_acceleration", "m/s²", "that amplitude"),
     ),
@@ -53,10 +61,10 @@ TABLES = {
 
 
 def best(scores: np.ndarray, worst_of: Callable[[int], float]) -> int | None:
-    """The place with the largest worst score within the margin; None if no score is above -inf.
+    """The place with the largest worst score within the range; None if no score is above -inf.
 
     scores : shape (m,), NaN where a score is not known
-    worst_of : the worst score within the margin of a place, which is not above the score of the place
+    worst_of : the worst score within the range of a place, which is not above the score of the place
     """
     chosen, highest = None, -np.inf
     for place in np.argsort(-scores, kind="stable"):
@@ -67,13 +75,21 @@ def best(scores: np.ndarray, worst_of: Callable[[int], float]) -> int | None:
     return chosen
 
 
-def choose(rows: pd.DataFrame, around: Callable[[int], pd.DataFrame]) -> dict[str, int]:
+def choose(
+    rows: pd.DataFrame, around: Callable[[int], pd.DataFrame], inside: Callable[[int], slice] | None = None
+) -> dict[str, int]:
     """The place of the recommended amplitude of each aim that can be met.
 
     rows : measures of varied parts over the amplitude
-    around : the measures at a place and at the ends of its margin
+    around : the measures within the range of a place, and at its ends
+    inside : the places of `rows` within the range of a place, which bound the worst score; by default the place alone
     """
-    fast = best(rows.velocity_05.to_numpy(), lambda place: around(place).velocity_05.min(skipna=False))
+
+    def bounds(scores: np.ndarray) -> np.ndarray:
+        return scores if inside is None else np.array([scores[inside(place)].min() for place in range(len(scores))])
+
+    slowest = rows.velocity_05.to_numpy()
+    fast = best(bounds(slowest), lambda place: around(place).velocity_05.min(skipna=False))
     if fast is None:
         return {}
     needed = ENOUGH * around(fast).velocity_05.min()
@@ -83,8 +99,41 @@ def choose(rows: pd.DataFrame, around: Callable[[int], pd.DataFrame]) -> dict[st
     def evenness(measures: pd.DataFrame) -> np.ndarray:
         return np.where(measures.velocity_05 >= needed, -measures.spread, -np.inf)
 
-    even = best(evenness(rows), lambda place: evenness(around(place)).min())
+    even = best(bounds(evenness(rows)), lambda place: evenness(around(place)).min())
     return {FAST: fast} if even is None else {FAST: fast, EVEN: even}
+
+
+def beyond(amplitudes: np.ndarray, low: float, high: float) -> np.ndarray:
+    """Amplitudes between low and high that continue a table of ascending amplitudes at its ends, in its steps."""
+    if len(amplitudes) < 2:
+        return np.zeros(0)
+    below = np.arange(amplitudes[0], low, amplitudes[0] - amplitudes[1])[1:]
+    return np.concatenate([below, np.arange(amplitudes[-1], high, amplitudes[-1] - amplitudes[-2])[1:]])
+
+
+def held_range(
+    amplitudes: np.ndarray, slowest: np.ndarray, place: int, at: Callable[[np.ndarray], pd.DataFrame]
+) -> tuple[float, float]:
+    """The amplitudes (m/s²) around a place of a table between which the 5 % quantile stays above KEPT of its value.
+
+    Bisection between two amplitudes of the table. At an end of the table, the amplitude of this end.
+
+    slowest : the 5 % quantile of the velocity at the amplitudes
+    at : the measures at further amplitudes
+    """
+    least, ends = KEPT * slowest[place], []
+    for step in (-1, 1):
+        kept = place
+        while 0 <= kept + step < len(amplitudes) and slowest[kept + step] >= least:
+            kept += step
+        good = amplitudes[kept]
+        if 0 <= kept + step < len(amplitudes):
+            bad = amplitudes[kept + step]
+            for _ in range(HALVINGS):
+                middle = 0.5 * (good + bad)
+                good, bad = (middle, bad) if at(np.array([middle])).velocity_05[0] >= least else (good, middle)
+        ends.append(float(good))
+    return ends[0], ends[1]
 
 
 def with_parameter(model: dict, parameter: str, value: float) -> dict:
@@ -169,22 +218,36 @@ def make(
 
     samples, parameters : as in transit.make
     """
-    followed, margin = with_calibration(transit.attrs, samples, parameters), settings["margin"]
+    followed, (low, high) = with_calibration(transit.attrs, samples, parameters), settings["range"]
     rows = transit[transit.population == VARIED].reset_index(drop=True)
-    unit = throw_number(1.0, **followed["model"])
+    amplitudes, unit = rows.acceleration.to_numpy(), throw_number(1.0, **followed["model"])
+
+    def at(more: np.ndarray) -> pd.DataFrame:
+        return measure(more, followed, (VARIED,), threads=threads)
+
+    def inside(place: int) -> slice:
+        lowest, highest = amplitudes[place] * low, amplitudes[place] * high
+        first, last = np.searchsorted(amplitudes, lowest, "right"), np.searchsorted(amplitudes, highest, "left")
+        return slice(min(first, place), max(last, place + 1))
 
     @cache
     def around(place: int) -> pd.DataFrame:
-        ends = rows.acceleration[place] * np.array([1.0 - margin, 1.0 + margin])
-        return pd.concat([rows.iloc[[place]], measure(ends, followed, (VARIED,), threads=threads)])
+        ends = np.array([amplitudes[place] * low, amplitudes[place] * high])
+        return pd.concat([rows.iloc[inside(place)], at(np.concatenate([ends, beyond(amplitudes, *ends)]))])
 
     advice, changes = [], []
-    for aim, place in choose(rows, around).items():
-        row = rows.iloc[place]
+    for aim, place in choose(rows, around, inside).items():
+        row, within = rows.iloc[place], around(place).reset_index(drop=True)
+        held = held_range(amplitudes, rows.velocity_05.to_numpy(), place, at) if "supply" in settings else (np.nan,) * 2
         worst = {
-            "velocity_worst": around(place).velocity_05.min(),
-            "spread_worst": around(place).spread.max(),
-            "back_worst": around(place).back.max(),
+            "lowest": row.acceleration * low,
+            "highest": row.acceleration * high,
+            "velocity_worst": within.velocity_05.min(),
+            "worst": within.acceleration[within.velocity_05.idxmin()],
+            "spread_worst": within.spread.max(),
+            "back_worst": within.back.max(),
+            "held_low": held[0],
+            "held_high": held[1],
         }
         own = {"aim": aim, "throw_number": unit * row.acceleration} | describe_states(shares, row.acceleration)
         advice.append(row.to_dict() | worst | own)

@@ -12,7 +12,7 @@ from conveyor.packing import plate_peaks
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.steepness import is_frictionless
 from conveyor_pipeline.common.templates import render
-from conveyor_pipeline.machine.operating.advice import ENOUGH, EVEN, FAST, neighbours
+from conveyor_pipeline.machine.operating.advice import ENOUGH, EVEN, FAST, KEPT, neighbours
 from conveyor_pipeline.machine.operating.populations import QUANTILES, differences
 from conveyor_pipeline.machine.operating.regimes import (
     BESIDE,
@@ -35,6 +35,8 @@ MANY_LATE = 0.5  # share of late parts that a page points out
 STILL = 0.01  # of the largest velocity of the plate: slower parts do not count as parts that move forward
 # The states of motion in the words of the trade.
 STATE_WORDS = {"first": "riding", "second": "jumping", "chaos": "chaos", "undecided": "undecided"}
+# What the force of a drive grows with, in words.
+FORCES = {"voltage²": "square of the voltage", "voltage": "voltage", "frequency²": "square of the frequency"}
 DECIMALS = 6  # of velocities in m/s: smaller ones are rounding errors
 
 
@@ -160,6 +162,8 @@ def make(
         "forward": moves_forward(transit),
         "still": STILL,
         "enough": ENOUGH,
+        "kept": KEPT,
+        "forces": FORCES,
         "many_late": MANY_LATE,
         "ends": (transit.acceleration.min(), transit.acceleration.max()),
         "frictionless": is_frictionless(transit.attrs["model"]),

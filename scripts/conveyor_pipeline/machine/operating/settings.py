@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from functools import partial
-from operator import itemgetter
 from typing import NotRequired
 
 from typing_extensions import TypedDict
@@ -25,8 +24,10 @@ from conveyor_pipeline.common.settings import (
     number,
     span,
     whole,
+    word,
 )
 from conveyor_pipeline.common.table_settings import INITIAL_CONDITION, model_of
+from conveyor_pipeline.machine.operating.supply import FORCES, amplitude_range
 
 DEVIATION = number("relative standard deviation", "of the value in the model", ge=0, le=1)
 
@@ -83,6 +84,14 @@ class Advice(TypedDict):
     part_length: NotRequired[number("length of a part in the feeding direction", "m", gt=0, le=10)]
 
 
+class Supply(TypedDict):
+    voltage: number("relative deviation of the voltage, up and down", ge=0, lt=1)
+    frequency: number("deviation of the excitation frequency, up and down", "Hz", ge=0, le=1e5)
+    resonance: NotRequired[number("resonance of the drive; without it, advice.margin counts", "Hz", ge=1e-2, le=1e5)]
+    damping_ratio: number("damping ratio of the drive", gt=0, lt=1)
+    force: word("what the force of the drive grows with", *FORCES)
+
+
 class Throws(TypedDict):
     throw_number: span(number("throw number a_z/(g cos α)", gt=0, le=100), "throw numbers")
     starts: whole("random initial conditions per throw number", 16, 10**6)
@@ -130,6 +139,7 @@ SECTIONS = {
     "transit": described(Transit, "velocities of parts along a track over the amplitude"),
     "drift": mapping("drift and diffusion in chaos, and the spread over the track's length", {"effort": Effort}),
     "advice": described(Advice, "advice on where to run the conveyor"),
+    "supply": described(Supply, "range of the amplitude of a drive without a controller, in place of advice.margin"),
     "throws": described(Throws, "comparison with the textbook theory of throw conveyors"),
     "track": described(Track, "velocity over inclination and phase shift"),
     "drive": described(Drive, "search for the settings of the drive"),
@@ -183,6 +193,17 @@ def drift_settings(config: dict) -> dict:
     return {**transit, **config["drift"]}
 
 
+def advice_settings(config: dict) -> dict:
+    """The section `advice`, the range of the amplitude within which it must hold, and the supply that makes this range.
+
+    `range` has the lowest and the highest amplitude over the set one. `supply` is missing if the config states none.
+    """
+    own, supply, frequency = config["advice"], config["supply"], config["model"]["frequency"]
+    if "resonance" not in supply:
+        return {**own, "range": [1.0 - own["margin"], 1.0 + own["margin"]]}
+    return {**own, "range": list(amplitude_range(supply, frequency)), "supply": supply}
+
+
 def drive_settings(config: dict) -> dict:
     """The search follows the parts of the transit table, within the error of the amplitude that the advice states."""
     drive = config["drive"]
@@ -194,7 +215,7 @@ TABLE_SETTINGS = {
     **dict.fromkeys(("operating/shares", "operating/regimes"), partial(box_settings, "operating")),
     "operating/transit": transit_settings,
     **dict.fromkeys(("operating/drift", "operating/track_lengths"), drift_settings),
-    **dict.fromkeys(("operating/advice", "operating/changes"), itemgetter("advice")),
+    **dict.fromkeys(("operating/advice", "operating/changes"), advice_settings),
     "operating/throws": partial(box_settings, "throws"),
     "operating/track": partial(box_settings, "track"),
     **dict.fromkeys(("operating/drive_front", "operating/drive_generations"), drive_settings),

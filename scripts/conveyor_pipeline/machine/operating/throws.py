@@ -6,7 +6,6 @@ The conveyors come from the config and from the examples. Initial heights fill t
 
 import numpy as np
 import pandas as pd
-import yaml
 
 from conveyor import throw_number, throw_velocity
 from conveyor.parameters import normal_gravity
@@ -24,7 +23,7 @@ TABLES = {
 
 
 def settings_of_conveyor(settings: dict, model: dict) -> dict:
-    """The settings of `shares` for a conveyor whose parameters differ from the config by `model`."""
+    """The settings of `shares` for a conveyor with the parameters `model`; the config has the others."""
     base = settings["model"]
     own = base | model
     gravity = normal_gravity(own) / normal_gravity(base)
@@ -37,9 +36,9 @@ def settings_of_conveyor(settings: dict, model: dict) -> dict:
     return {**settings, **box, "model": own}
 
 
-def make(examples: list[str], settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
-    """The shares at each throw number, for the conveyors of the config and of the `examples` (YAML texts)."""
-    conveyors = {"paper": {}} | {one["prefix"]: one["model"] for one in map(yaml.safe_load, examples)}
+def make(models: dict[str, dict], settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
+    """The shares at each throw number, for the conveyors of the config and of the examples (`models`, by name)."""
+    conveyors = {"paper": {}} | models
     throws = np.linspace(*(settings["throw_number"][key] for key in ("start", "stop", "num")))
     tables = []
     for name, model in conveyors.items():

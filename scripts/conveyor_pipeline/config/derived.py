@@ -1,0 +1,39 @@
+"""Parameters of the model that follow from other sections, which stages declare as DERIVED.
+
+Such a function takes a valid config and returns parameters by name; its ValueError is a line for the user.
+"""
+
+import math
+from collections.abc import Iterator
+
+from conveyor_pipeline.config.stages import declared
+
+DERIVED = declared("DERIVED")
+SAME = 1e-3  # relative difference up to which a stated value agrees with the derived one, which is used
+
+
+def with_derived(config: dict) -> dict:
+    """A config whose model has all parameters that follow from other sections."""
+    found = {name: value for derive in DERIVED.values() for name, value in derive(config).items()}
+    return {**config, "model": config["model"] | found}
+
+
+def origins_of(config: dict) -> dict[str, str]:
+    """The section that each derived parameter of the model follows from."""
+    return {name: section for section, derive in DERIVED.items() for name in derive(config)}
+
+
+def faults_of_derived(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """Sections that cannot be met, and those that a stated parameter of the model contradicts; one line each."""
+    for section, derive in DERIVED.items():
+        try:
+            found = derive(config)
+        except ValueError as error:
+            yield str(error)
+            continue
+        for name, value in found.items():
+            own = config["model"][name]
+            is_given = name in (stated.get("model") or {}) or own != defaults["model"][name]
+            if is_given and not math.isclose(own, value, rel_tol=SAME):
+                remedy = f"remove it, or what gives it in the section {section}"
+                yield f"model.{name} = {own!r} contradicts the section {section}, which gives {value!r}; {remedy}"

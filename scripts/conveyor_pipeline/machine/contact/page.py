@@ -1,0 +1,71 @@
+"""The contact in words, with all numbers from the tables."""
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from conveyor import UNITS, restitution
+from conveyor.materials import UNCERTAINTY, material
+from conveyor_pipeline.common.templates import render
+from conveyor_pipeline.machine.contact.derive import HERTZ, NAMED, drop_speed, moduli_of, on_level_plate
+from conveyor_pipeline.machine.contact.variants import BOUNCE, RADIUS, STATED, contacts, penetration, stiffness_range
+from conveyor_pipeline.machine.operating.advice import EVEN, FAST
+
+SPEEDS = (0.02, 0.05, 0.1, 0.2, 0.5)  # m/s, in the table of restitutions
+NOTICEABLE = 0.2  # relative change of the velocity of the slowest parts that the page points out
+
+
+def describe(given: str | dict) -> dict:
+    """A material as the page names it; without a source for moduli of the config."""
+    if isinstance(given, str):
+        return material(given)._asdict()
+    modulus, poisson = moduli_of(given)
+    own = {"name": "the config's moduli", "description": "moduli of the config", "source": ""}
+    return own | {"modulus": modulus, "low": modulus, "high": modulus, "poisson": poisson}
+
+
+def make(template: str, variants: pd.DataFrame, advice: pd.DataFrame) -> str:
+    """The page from its template, the table of variants and the advice."""
+    settings = variants.attrs
+    own, model, drop = settings["contact"], settings["model"], drop_speed(settings)
+    impacts = {row.aim: row.impact_speed for row in advice.itertuples() if row.impact_speed > 0.0}
+    places = [(f"in the drop of {1e3 * own['drop_height']:g} mm", drop)]
+    places += [(f"at the advised amplitude, {aim}", speed) for aim, speed in impacts.items()]
+    places += [(None, speed) for speed in SPEEDS]
+    by_aim = {}
+    for aim, rows in variants.groupby("aim", sort=False):
+        slowest, stated = rows.velocity_05, rows.velocity_05.iloc[0]
+        changes = (slowest / stated - 1.0).abs() if stated else slowest * np.nan
+        by_aim[aim] = {
+            "rows": rows.replace({np.nan: None}).to_dict("records"),
+            "slowest": (float(slowest.min()), float(slowest.max())),
+            "stated": float(stated),
+            "most": rows.variant.iloc[int(changes.argmax())] if changes.notna().any() else None,
+            "change": float(changes.max()),
+        }
+    depths = {"drop": penetration(model, drop)} | {aim: penetration(model, speed) for aim, speed in impacts.items()}
+    rest = (model["mass"] * model["gravity"] / model["stiffness"]) ** (1.0 / model["exponent"])
+    values = {
+        "contact": own,
+        "model": model,
+        "units": UNITS,
+        "is_hertz": model["exponent"] == HERTZ,
+        "materials": {name: describe(own[name]) for name in NAMED} if own.get("radius") is not None else {},
+        "stiffness_range": stiffness_range(settings),
+        "contacts": contacts(settings),
+        "drop_speed": drop,
+        "rest": rest,
+        "depths": depths,
+        "restitutions": [
+            {"place": place, "speed": speed, "restitution": restitution(on_level_plate(model), speed)}
+            for place, speed in sorted(places, key=lambda one: -one[1])
+        ],
+        "by_aim": by_aim,
+        "aims": {FAST: "fast for nearly all parts", EVEN: "even"},
+        "factors": {"radius": RADIUS, "stated": STATED, "elastomer": UNCERTAINTY},
+        "bounce": BOUNCE,
+        "noticeable": NOTICEABLE,
+        "sqrt": math.sqrt,
+    }
+    return render(template, values)
