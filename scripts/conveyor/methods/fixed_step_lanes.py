@@ -184,5 +184,5 @@ def kind_of(method: int, parameters: np.ndarray) -> Kind:
         alike=bool((plates == plates[:1]).all()),
         sticks=bool((parameters[:, model.STATIC_FRICTION] > parameters[:, model.FRICTION]).any()),
         has_powers=bool((~np.isin(parameters[:, model.EXPONENT], (1.0, 1.5))).any()),
-        waves=tuple(rows.tolist()),
+        waves=tuple(rows.tolist()) if len(orders) else None,
     )

@@ -35,8 +35,6 @@ LEAST_PUSH, LEAST_RUB, COS_SHIFT, SIN_SHIFT = range(30, 34)
 # The numbers of the plate's harmonics, as many as in the packed parameters.
 WAVES = 34
 
-NO_WAVES = 2  # length of Kind.waves without harmonics: the orders 0 and 1
-
 
 class Kind(NamedTuple):
     """What the steps are compiled for, because steps that need less take less time.
@@ -49,7 +47,8 @@ class Kind(NamedTuple):
     alike: bool  # whether all plates have the same Shapes
     sticks: bool  # whether there are static frictions larger than the friction
     has_powers: bool  # whether there are exponents other than 1 and 1.5
-    waves: tuple[int, ...]  # for each order from 0 to the highest, the first row of its harmonic in the memory, or 0
+    # For each order from 0 to the highest, the first row of its harmonic in the memory, or 0; None without harmonics.
+    waves: tuple[int, ...] | None
 
 
 @compiled_inline
@@ -57,16 +56,21 @@ def shapes_at(kind, memory, lane, phase):
     """The Shapes of a plate at a phase (rad)."""
     sine, cosine = sine_and_cosine(phase)
     along = plate.add_phases(sine, cosine, memory[place(SIN_SHIFT, lane)], memory[place(COS_SHIFT, lane)])
-    shapes = plate.shapes(sine, cosine, *along)
-    if len(kind.waves) == NO_WAVES:
+    return add_waves(kind.waves, memory, lane, plate.shapes(sine, cosine, *along), sine, cosine)
+
+
+@compiled_inline
+def add_waves(waves, memory, lane, shapes, sine, cosine):
+    """The Shapes with the harmonics of Kind.waves, at the phase with a sine and cosine."""
+    if waves is None:
         return shapes
     added, s, c = plate.NO_SUMS, sine, cosine
     # A single loop whose bounds are known: LLVM writes it out. Else the loops over the lanes would not become vector
     # code, and steps with two harmonics would take eight times as long as without.
-    for order in range(2, len(kind.waves)):
+    for order in range(2, len(waves)):
         s, c = plate.add_phases(s, c, sine, cosine)
-        if kind.waves[order] > 0:
-            harmonic = plate.numbers_at(memory, place(kind.waves[order], lane), np.uint64(LANES))
+        if waves[order] > 0:
+            harmonic = plate.numbers_at(memory, place(waves[order], lane), np.uint64(LANES))
             # The order is known to the compiler, which then divides by a constant.
             added = plate.add_harmonic(added, (float(order), *harmonic[1:]), s, c)
     return plate.add_sums(shapes, added)
