@@ -161,7 +161,9 @@ def test_checks_of_the_config_rerun_nothing():
     # Pages show the comments of the config files and where the workflow puts its tables.
     readers = ("pages/article", "pages/config_keys", "pages/pages", "pages/tables_page")
     # What the Snakefile imports, but no job.
-    checks = {script for script in scripts if "/config/" in script or script.endswith(("/checks", "/budgeted"))}
+    checks = {
+        script for script in scripts if "/config/" in script or script.endswith(("/checks", "/budgeted", "/statements"))
+    }
     assert len(checks) > 10
     files, packages = source_hash.closure(*scripts - checks - {*below_package(*readers)})
     assert "numpy" in packages

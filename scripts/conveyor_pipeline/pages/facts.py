@@ -18,7 +18,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor.analysis.stroboscopic_map import MAX_PERIOD
-from conveyor_pipeline.machine.excitation import clean_drive
+from conveyor_pipeline.machine.excitation import effects
 from conveyor_pipeline.machine.operating.populations import ENDS, POPULATIONS, differences
 from conveyor_pipeline.machine.operating.regimes import SEVERAL
 from conveyor_pipeline.paper.caption_numbers import fig10, moved_impacts
@@ -131,7 +131,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         **summarize_proofs(tables["certificates"], tables["certified_bifurcations"], tables["certified_chaos"]),
         **summarize_speed(tables),
         **summarize_transit(tables["transit"], tables["lengths"], onset["accumulation"]),
-        "clean": clean_drive.statement_of(tables["drives"]),
+        "clean": effects.statement_of(tables["drives"]),
     }
 
 

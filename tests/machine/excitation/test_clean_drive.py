@@ -6,13 +6,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from conveyor_pipeline.machine.excitation.clean_drive import (
-    changes_of,
-    drives_of,
-    harmless_shares,
-    largest_changes,
-    statement_of,
-)
+from conveyor_pipeline.machine.excitation.clean_drive import drives_of
+from conveyor_pipeline.machine.excitation.effects import changes_of, harmless_shares, largest_changes, statement_of
 
 SHARES = (0.02, 0.05, 0.1)
 PHASES = (0.0, np.pi / 2.0, np.pi, -np.pi / 2.0)

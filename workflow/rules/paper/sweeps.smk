@@ -23,8 +23,8 @@ rule sweeps:
         "../../../scripts/conveyor_pipeline/make.py"
 
 
-# Some rows of a sweep of several jobs.
-use rule sweeps as shards with:
+rule shards:
+    """Some rows of a sweep of several jobs."""
     input:
         no_input_of_shard,
     output:
@@ -36,6 +36,15 @@ use rule sweeps as shards with:
     wildcard_constraints:
         name=one_of(config["sweeps"]),
         shard=r"0|[1-9]\d*",
+    threads: THREADS
+    resources:
+        mem_mb=lambda wildcards, attempt: 1000 * attempt,
+        runtime=lambda wildcards, attempt: 120 * attempt,
+    params:
+        **stage("conveyor_pipeline.paper.sweeps.shards", "sweeps/{name}"),
+        rows=rows_of_shard,
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
 
 
 rule joined_sweeps:

@@ -3,17 +3,17 @@
 import numpy as np
 import pandas as pd
 
-from conveyor_pipeline.machine.excitation import clean_drive
+from conveyor_pipeline.machine.excitation import effects
 from conveyor_pipeline.machine.excitation.limits import MATTERS, STATEMENT
 from conveyor_pipeline.machine.operating.populations import ENDS
 
 
 def numbers(*, drives: pd.DataFrame) -> dict:
-    harmless = clean_drive.harmless_shares(drives)
+    harmless = effects.harmless_shares(drives)
     # Limits are rounded down, otherwise they would promise too much.
     harmless["percent"] = np.floor(1e3 * harmless.share) / 10.0
     return {
-        "statement": clean_drive.statement_of(drives),
+        "statement": effects.statement_of(drives),
         "limits": STATEMENT,
         "matters": MATTERS,
         "ends": ENDS,

@@ -6,7 +6,7 @@ import pandas as pd
 
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.excitation import comparison as compared
-from conveyor_pipeline.machine.excitation.clean_drive import MEASURES
+from conveyor_pipeline.machine.excitation.effects import MEASURES
 from conveyor_pipeline.machine.excitation.estimates import CHANCE
 from conveyor_pipeline.machine.excitation.limits import MATTERS
 from conveyor_pipeline.machine.operating.populations import differences

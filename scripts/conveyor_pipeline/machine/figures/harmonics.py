@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from conveyor_pipeline.figures import style
-from conveyor_pipeline.machine.excitation.clean_drive import MEASURES, changes_of
+from conveyor_pipeline.machine.excitation.effects import MEASURES, changes_of
 
 COLOURS = {2: "#0072B2", 3: "#D55E00"}
 OTHER = "#009E73"
