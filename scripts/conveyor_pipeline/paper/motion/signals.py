@@ -4,7 +4,7 @@ import numpy as np
 
 from conveyor import Run, plate_motion
 from conveyor_pipeline.common import fields
-from conveyor_pipeline.paper.motion.runs import simulate_entry
+from conveyor_pipeline.paper.motion.simulated_entries import simulate_entry
 
 TABLES = {
     "signals": (
