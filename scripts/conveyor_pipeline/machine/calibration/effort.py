@@ -10,7 +10,6 @@ SEARCHES, MOST_SEARCHES = 3, 5  # independent ones, at first and at most
 EFFECTIVE, EFFECTIVE_OF_EVIDENCE = 40.0, 10.0
 # Of what follows from the posterior. A trial has fewer; with more, no number would change that a reader sees.
 PARTS = 16  # random initial conditions for each set of parameters and each amplitude
-ROUGH_PARTS = 8  # in the first step of a search
 SAMPLES = 256  # of the posterior in the table
 CHECKED = 16  # of these samples are tested against the measurements
 CHECKED_PARTS = 128  # random initial conditions for the density of this test, and as many for the replicates
@@ -29,7 +28,6 @@ def sizes_of(effort: float) -> dict[str, float]:
         "rounds": max(1, round(effort * ROUNDS)),
         "enough": max(EFFECTIVE, effort * ENOUGH),
         "parts": max(8, round(most * PARTS)),
-        "rough_parts": ROUGH_PARTS,
         "samples": max(32, round(most * SAMPLES)),
         "checked": max(2, round(most * CHECKED)),
         "checked_parts": max(8, round(most * CHECKED_PARTS)),

@@ -199,12 +199,12 @@ def sample(
         for the measurements as they are and for m - 1 ever larger inflations of their errors; -inf for what is
         impossible; called once per round
     bounds : lower and upper bounds, shape (2, d)
-    first : number of points of the first round, which fills the bounds evenly, or lies near a related posterior
+    first : number of points of the first round
     points : number of points of each further round; those beyond the bounds are dropped
     rounds : largest number of further rounds
     enough : effective number of points at which the search ends
     seed : of the random numbers
-    near : points of a related posterior, shape (k, d)
+    near : points of a related posterior, shape (k, d), near which the first of the further rounds draws
 
     Raises
     ------
@@ -214,52 +214,41 @@ def sample(
     random = np.random.default_rng(seed)
     low, high = bounds
     volume, dimensions = float(np.sum(log(high - low))), len(low)
-    proposals: list[Kernels | None] = []  # None: even
-    shares: list[float] = []  # logarithms of the numbers of their points, relative to those of a round
-
-    def propose(density: Kernels | None, count: int) -> np.ndarray:
-        """New points within the bounds, shape (n, d), with n up to `count`."""
-        proposals.append(density)
-        shares.append(math.log(count / points))
-        if density is None:
-            return qmc.scale(qmc.Halton(dimensions, rng=random).random(count), low, high)
-        drawn = draw_from(density, count, random)
-        return drawn[((drawn >= low) & (drawn <= high)).all(axis=1)]
-
-    def log_proposal(place: int, at: np.ndarray) -> np.ndarray:
-        """Logarithm of the density of a proposal over the even one, times its share."""
-        density = proposals[place]
-        return shares[place] + (np.zeros(len(at)) if density is None else volume + log_kernels(density, at))
-
-    x = propose(None if near is None else kernels(near, np.ones(len(near))), first)
+    x = qmc.scale(qmc.Halton(dimensions, rng=random).random(first), low, high)
     factors = log_factors(x)
     if not np.isfinite(factors.sum(axis=-1)).any():
         raise ValueError("no point within the bounds is possible")
-    mixture = log_proposal(0, x)  # logarithm of the sum of all proposals
+    even = math.log(first / points)
+    mixture = np.full(first, even)  # logarithm of the sum of all proposals over the even one
     least = max(LEAST * dimensions, LEAST_SHARE * points)
 
     def tempered(known: np.ndarray, width: float) -> np.ndarray:
         """Weights of the least inflated density that keeps enough effective points, smoothed in units of `known`."""
         return flattened(lambda place: smoothed(factors[place], x, known, width), len(factors), mixture, least)
 
-    known = tempered(np.full(len(x), 1.0 / len(x)), 0.0)
+    known = tempered(np.full(first, 1.0 / first), 0.0)
+    proposals: list[Kernels] = []
     while True:
-        done = len(proposals) - 1
         for width in WIDTHS:
             settled = settle(factors[0], x, mixture, known, width, enough)
-            if settled.size >= enough or width >= WIDTHS[-1] * done / rounds:
+            if settled.size >= enough or width >= WIDTHS[-1] * len(proposals) / rounds:
                 break
-        if settled.size >= enough or done == rounds:
+        if settled.size >= enough or len(proposals) == rounds:
             # A proposal counts as one in `mixture`, and stands for as many points as a round has.
             return settled._replace(log_evidence=settled.log_evidence - math.log(points))
-        known = tempered(known, WIDTHS[-1])
-        centres = np.flatnonzero(known > LIGHT * known.max())
-        if len(centres) > CENTRES:
-            centres = random.permutation(centres)[:CENTRES]
-        new = propose(kernels(x[centres], known[centres]), points)
-        of_old = np.column_stack([mixture, log_proposal(-1, x)])
-        of_new = np.column_stack([log_proposal(place, new) for place in range(len(proposals))])
-        mixture = np.append(log_sum(of_old), log_sum(of_new))
+        if near is not None and not proposals:
+            proposals.append(kernels(near, np.ones(len(near))))
+        else:
+            known = tempered(known, WIDTHS[-1])
+            centres = np.flatnonzero(known > LIGHT * known.max())
+            if len(centres) > CENTRES:
+                centres = random.permutation(centres)[:CENTRES]
+            proposals.append(kernels(x[centres], known[centres]))
+        new = draw_from(proposals[-1], points, random)
+        new = new[((new >= low) & (new <= high)).all(axis=1)]
+        of_new = np.array([np.full(len(new), even), *(volume + log_kernels(one, new) for one in proposals)])
+        of_old = np.column_stack([mixture, volume + log_kernels(proposals[-1], x)])
+        mixture = np.append(log_sum(of_old), log_sum(of_new.T))
         x, factors = np.vstack([x, new]), np.concatenate([factors, log_factors(new)], axis=1)
         known = tempered(np.append(known, np.zeros(len(new))), WIDTHS[-1])
 

@@ -37,9 +37,6 @@ REPEATABLE = 0.25
 HOPELESS = 30.0
 # The search first takes measurements for less accurate than they are, so that it finds its way from far away.
 INFLATIONS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0)
-# The first step of a search: place of its least inflation, most cycles before a measurement and during it, and the
-# effective number of points at which it ends.
-ROUGH, CYCLES, ENOUGH_ROUGH = 2, 30.0, 20.0
 NUMBERS = ("best", "best_error", "low", "low_error", "high", "high_error")
 WIDE = 0.8  # of the searched range: a wider interval determines nothing
 
@@ -74,29 +71,15 @@ def log_factors(simulated: np.ndarray, data: Data, settings: dict, inflations: t
 
 
 def runs_of_search(data: Data, settings: dict) -> int:
-    """The largest number of runs of one search: of both its steps, see `search_once`."""
-    rough = (settings["first"] + settings["rounds"] * settings["points"]) * settings["rough_parts"]
-    fine = (1 + settings["rounds"]) * settings["points"] * settings["parts"]
-    return (rough + fine) * len(data.conditions.rows)
-
-
-def shortened(conditions: Conditions) -> Conditions:
-    """The same conditions, but with at most CYCLES cycles before the measurement, and as many during it."""
-    most = CYCLES / conditions.rows["frequency"]
-    begin, end = conditions.times.T
-    before = np.minimum(begin, most)
-    return conditions._replace(times=np.column_stack([before, before + np.minimum(end - begin, most)]))
+    """The largest number of runs of one search."""
+    sets = settings["first"] + settings["rounds"] * settings["points"]
+    return sets * len(data.conditions.rows) * settings["parts"]
 
 
 def search_once(data: Data, settings: dict, number: int, near: np.ndarray | None, threads: int, bar: tqdm) -> Sample:
-    """The sample of one search; its number makes its random numbers differ from those of the others.
-
-    A posterior may fill a millionth of the bounds, so that most rounds only find the way to it. The first step follows
-    few parts for a short time, and takes measurements for less accurate than they are. The second step begins with
-    what it has found, and follows all parts for the whole time. The posterior comes from the second step alone.
-    """
+    """The sample of one search; its number makes its random numbers differ from those of the others."""
+    best, rounds = -math.inf, 0
     sd = deviations(data.velocity, data.sd, data.plate, settings["noise"])
-    best = -math.inf
 
     def worth(few: np.ndarray) -> np.ndarray:
         nonlocal best
@@ -105,26 +88,18 @@ def search_once(data: Data, settings: dict, number: int, near: np.ndarray | None
         known = is_known(few, data.velocity, data.of, sd, data.plate)
         return (log_likelihood > best - HOPELESS)[:, None] & ~known
 
-    def step(fine: int, first: int, enough: float, near: np.ndarray | None) -> Sample:
-        rounds = 0
-        conditions = data.conditions if fine else shortened(data.conditions)
-        inflations = INFLATIONS if fine else INFLATIONS[ROUGH:]
-        own = {"parts": settings["parts"], "worth": worth} if fine else {"parts": settings["rough_parts"]}
+    def follow(points: np.ndarray) -> np.ndarray:
+        nonlocal rounds
+        options = {"parts": settings["parts"], "seed": [settings["seed"], number, rounds]}
+        options |= {"threads": threads, "worth": worth}
+        simulated = velocities(values_at(points, settings), data.conditions, settings, **options)
+        rounds += 1
+        bar.update(simulated.size)
+        return log_factors(simulated, data, settings, INFLATIONS)
 
-        def follow(points: np.ndarray) -> np.ndarray:
-            nonlocal rounds
-            options = own | {"seed": [settings["seed"], number, fine, rounds], "threads": threads}
-            simulated = velocities(values_at(points, settings), conditions, settings, **options)
-            rounds += 1
-            bar.update(simulated.size)
-            return log_factors(simulated, data, settings, inflations)
-
-        sizes = {name: settings[name] for name in ("points", "rounds")} | {"first": first, "enough": enough}
-        return sample(follow, bounds_of(settings), **sizes, seed=[settings["seed"], number, fine], near=near)
-
+    options = {name: settings[name] for name in ("first", "points", "rounds", "enough")}
     begun = bar.n
-    rough = step(0, settings["first"], ENOUGH_ROUGH, near)
-    found = step(1, settings["points"], settings["enough"], rough.points[draw(rough, settings["points"])])
+    found = sample(follow, bounds_of(settings), **options, seed=[settings["seed"], number], near=near)
     bar.total -= runs_of_search(data, settings) - (bar.n - begun)  # the search may have ended early
     return found
 
