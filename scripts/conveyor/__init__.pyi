@@ -42,7 +42,7 @@ from .analysis.amplitude_spectrum import (
 )
 
 # Parts as rigid bodies
-from .blocks.runs import (
+from .blocks.block import (
     Block as Block,
     BlockRun as BlockRun,
     block_transits as block_transits,

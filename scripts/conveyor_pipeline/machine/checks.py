@@ -106,4 +106,13 @@ def excitation(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         yield from error.faults
 
 
-CHECKS = (transit_amplitudes, numbers_of_runs, durations, supply, calibration, excitation)
+def bodies(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    body, length = config.get("body"), config["advice"].get("part_length")
+    if body and length is not None and length != body["length"]:
+        yield (
+            f"advice.part_length = {length!r} m contradicts body.length = {body['length']!r} m; "
+            "leave advice.part_length out, because parts per minute follow from body.length"
+        )
+
+
+CHECKS = (transit_amplitudes, numbers_of_runs, durations, supply, calibration, excitation, bodies)

@@ -416,6 +416,21 @@ def test_the_page_begins_with_the_advice(refined):
     )
 
 
+def test_the_page_of_blocks_compares_its_advice_with_that_of_points(refined):
+    rows, advice_rows, changes = advised()
+    rows.attrs |= {"body": {"length": 5e-3, "height": 1e-3, "tilt": 0.03}}
+    advice_rows["point_acceleration"], advice_rows["point_velocity"] = [31.1, 40.0], [0.02, 0.01]
+    page = page_of(refined, [rows, advice_rows, changes])
+    begin = page[: page.index("## Where to run")]
+    assert "The parts are blocks of 5 mm by 1 mm (length by height) with an initial tilt of up to 0.03 rad." in begin
+    assert "**A point mass would have given the same advice.**" in begin
+    even = "For even feeding: A point mass would have led to another advice: 40 m/s², where the slowest 5 %"
+    assert f"{even} of the blocks have 1 cm/s." in begin
+    assert "Up to 360 parts of 5 mm per minute" in page
+    assert "- Motion of a point mass: riding" in page
+    assert "point mass" not in page_of(refined, advised())
+
+
 def test_the_page_says_that_riding_parts_have_no_impacts(refined):
     assert "- No impacts, contact force up to 0.5 N" in page_of(refined, advised(impact_speed=0.0))
 

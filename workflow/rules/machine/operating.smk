@@ -48,6 +48,21 @@ rule transit:
         "../../../scripts/conveyor_pipeline/make.py"
 
 
+rule bodies:
+    """Velocities of blocks of several shapes beside those of points."""
+    output:
+        **tables_of("operating/bodies", "operating/body_shapes", "operating/landing"),
+    log:
+        log_file("operating/bodies"),
+    benchmark:
+        benchmark_file("operating/bodies")
+    threads: THREADS
+    params:
+        **stage("conveyor_pipeline.machine.operating.bodies", "operating/bodies"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
 rule drift:
     """Drift and diffusion in chaos, and the spread of transit over the length of the track."""
     input:

@@ -18,7 +18,7 @@ from conveyor_pipeline.machine.operating.parts import population, with_calibrati
 from conveyor_pipeline.machine.operating.populations import PROBABILITIES, VARIED
 from conveyor_pipeline.machine.operating.transit import (
     MEASURES,
-    follow,
+    follow_parts,
     measure,
     spread_of,
     summarize_populations,
@@ -46,6 +46,8 @@ TABLES = {
         fields.number("held_high", "m/s²", "the highest one; both are null if the config states no supply"),
         fields.text("states", "states of motion at the nearest amplitude of the table of shares, with their shares"),
         fields.number("states_acceleration", "m/s²", "that amplitude"),
+        fields.number("point_acceleration", "m/s²", "what would be recommended if blocks were points; null for points"),
+        fields.number("point_velocity", "m/s", "5 % quantile of the velocity there, of blocks; null for points"),
     ),
     "changes": (
         AIM,
@@ -182,7 +184,7 @@ def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *
         return []
     models = [model, *(with_parameter(model, *one) for one in changed)]
     populations = [population(amplitude, {**settings, "model": one}) for one in models]
-    run = follow(np.concatenate(populations), settings, threads=threads)
+    run = follow_parts(np.concatenate(populations), settings, threads=threads)
     velocity, is_right = run.velocity[:, 0].reshape(-1, parts), (run.status == "ok").reshape(-1, parts)
     measures, rows = summarize_populations(run, parts).to_dict("records"), []
     for place, (parameter, value) in enumerate(changed, start=1):
@@ -205,6 +207,32 @@ def describe_states(shares: pd.DataFrame, acceleration: float) -> dict[str, str 
     return {"states": states, "states_acceleration": nearest}
 
 
+def recommend(
+    rows: pd.DataFrame, settings: dict, limits: tuple[float, float], threads: int
+) -> tuple[dict[str, int], Callable[[int], pd.DataFrame], Callable[[np.ndarray], pd.DataFrame]]:
+    """The places that `choose` returns; the measures around a place, and those at other amplitudes.
+
+    rows : measures of varied parts over the amplitude
+    limits : ends of the range within which the advice must hold, as multiples of the amplitude
+    """
+    amplitudes, (low, high) = rows.acceleration.to_numpy(), limits
+
+    def at(more: np.ndarray) -> pd.DataFrame:
+        return measure(more, settings, (VARIED,), threads=threads)
+
+    def inside(place: int) -> slice:
+        lowest, highest = amplitudes[place] * low, amplitudes[place] * high
+        first, last = np.searchsorted(amplitudes, lowest, "right"), np.searchsorted(amplitudes, highest, "left")
+        return slice(min(first, place), max(last, place + 1))
+
+    @cache
+    def around(place: int) -> pd.DataFrame:
+        ends = np.array([amplitudes[place] * low, amplitudes[place] * high])
+        return pd.concat([rows.iloc[inside(place)], at(np.concatenate([ends, beyond(amplitudes, *ends)]))])
+
+    return choose(rows, around, inside), around, at
+
+
 def make(
     transit: pd.DataFrame,
     shares: pd.DataFrame,
@@ -221,22 +249,13 @@ def make(
     followed, (low, high) = with_calibration(transit.attrs, samples, parameters), settings["range"]
     rows = transit[transit.population == VARIED].reset_index(drop=True)
     amplitudes, unit = rows.acceleration.to_numpy(), throw_number(1.0, **followed["model"])
-
-    def at(more: np.ndarray) -> pd.DataFrame:
-        return measure(more, followed, (VARIED,), threads=threads)
-
-    def inside(place: int) -> slice:
-        lowest, highest = amplitudes[place] * low, amplitudes[place] * high
-        first, last = np.searchsorted(amplitudes, lowest, "right"), np.searchsorted(amplitudes, highest, "left")
-        return slice(min(first, place), max(last, place + 1))
-
-    @cache
-    def around(place: int) -> pd.DataFrame:
-        ends = np.array([amplitudes[place] * low, amplitudes[place] * high])
-        return pd.concat([rows.iloc[inside(place)], at(np.concatenate([ends, beyond(amplitudes, *ends)]))])
-
+    places, around, at = recommend(rows, followed, (low, high), threads)
+    of_points = {}
+    if "body" in followed:
+        points = {name: value for name, value in followed.items() if name != "body"}
+        of_points, *_ = recommend(measure(amplitudes, points, (VARIED,), threads=threads), points, (low, high), threads)
     advice, changes = [], []
-    for aim, place in choose(rows, around, inside).items():
+    for aim, place in places.items():
         row, within = rows.iloc[place], around(place).reset_index(drop=True)
         held = held_range(amplitudes, rows.velocity_05.to_numpy(), place, at) if "supply" in settings else (np.nan,) * 2
         worst = {
@@ -250,6 +269,8 @@ def make(
             "held_high": held[1],
         }
         own = {"aim": aim, "throw_number": unit * row.acceleration} | describe_states(shares, row.acceleration)
+        other = rows.iloc[of_points[aim]] if aim in of_points else {"acceleration": np.nan, "velocity_05": np.nan}
+        own |= {"point_acceleration": other["acceleration"], "point_velocity": other["velocity_05"]}
         advice.append(row.to_dict() | worst | own)
         changed = changes_at(row.acceleration, followed, settings["changes"], threads=threads)
         changes += [{"aim": aim, **one} for one in changed]

@@ -152,13 +152,15 @@ def make(
         run |= {"end": name_end(run["acceleration"], transit)}
     if values["several"]:
         values["fastest"] = summarize_fastest(shares, values["several"])
+    body = transit.attrs.get("body")
     values |= {
         "units": UNITS,
         "words": STATE_WORDS,
         "long_flight": LONG_FLIGHT,
         "assumed": {name: transit.attrs["spread"][name] for name in assumed},
         "axis": axis,
-        "options": advice.attrs,
+        "options": advice.attrs | ({"part_length": body["length"]} if body else {}),
+        "body": body,
         "forward": moves_forward(transit),
         "still": STILL,
         "enough": ENOUGH,

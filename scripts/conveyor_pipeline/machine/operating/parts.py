@@ -9,7 +9,8 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor.elementary import exp, log
+from conveyor import Block
+from conveyor.elementary import cos, exp, log, sin
 from conveyor.packing import plate_heights
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.rule_log import JobError
@@ -22,6 +23,23 @@ def starts_of_box(settings: dict) -> np.ndarray:
     """Initial heights above the plate (m), velocities normal to it (m/s) and phases (rad), shape (n, 3)."""
     low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
     return low + (high - low) * np.random.default_rng(settings["seed"]).random((settings["starts"], 3))
+
+
+def tilts_of(settings: dict) -> np.ndarray:
+    """Initial angles (rad) of blocks, uniform in ±tilt of the section `body`, shape (n,)."""
+    own = np.random.default_rng([settings["seed"], 1]).random(settings["starts"])
+    return settings["body"]["tilt"] * (2.0 * own - 1.0)
+
+
+def raise_blocks(rows: np.ndarray, block: Block, tilts: np.ndarray) -> np.ndarray:
+    """The table of parts, in which no tilted block begins in the plate: its lowest corner touches it instead.
+
+    tilts : rad, in the shape of the rows, whose height is that of the centre above the one at rest
+    """
+    lowest = 0.5 * (block.length * np.abs(sin(tilts)) + block.height * (cos(tilts) - 1.0))
+    rows = rows.copy()
+    rows["z0"] = np.maximum(rows["z0"], plate_heights(rows) + lowest)
+    return rows
 
 
 def factors(spread: dict, count: int) -> np.ndarray:

@@ -73,6 +73,12 @@ class Transit(TypedDict):
     parts: whole("parts with random initial conditions per amplitude", 8, 10**6)
 
 
+class Body(TypedDict):
+    length: number("length of the part along the track", "m", ge=1e-6, le=10)
+    height: number("height of the part", "m", ge=1e-6, le=10)
+    tilt: number("largest size of the initial angle, which is drawn uniformly", "rad", ge=0, le=1.5)
+
+
 class Advice(TypedDict):
     margin: number("relative error of the amplitude within which the advice must hold", gt=0, lt=1)
     changes: mapping(
@@ -137,6 +143,8 @@ SECTIONS = {
     "operating": described(Operating, "shares of the attractors over the amplitude"),
     "parts": described(Parts, "how parts differ"),
     "transit": described(Transit, "velocities of parts along a track over the amplitude"),
+    "body": NotRequired[described(Body, "the part as a planar rigid block; absent: a point mass")],
+    "bodies": mapping("shapes of parts compared with the point mass", {"effort": Effort}),
     "drift": mapping("drift and diffusion in chaos, and the spread over the track's length", {"effort": Effort}),
     "advice": described(Advice, "advice on where to run the conveyor"),
     "supply": described(Supply, "range of the amplitude of a drive without a controller, in place of advice.margin"),
@@ -177,6 +185,17 @@ def transit_settings(config: dict, without: Iterable[str] = ()) -> dict:
     return {**own, "spread": config["parts"], "model": model_of(config, without=(*INITIAL_CONDITION, *without))}
 
 
+def blocks_settings(config: dict) -> dict:
+    """The settings of the transit table: the parts may be blocks."""
+    return {**transit_settings(config), **({"body": config["body"]} if "body" in config else {})}
+
+
+def bodies_settings(config: dict) -> dict:
+    """The box of `operating`, effort and the model without an amplitude."""
+    own = {**box_of(config, "seed"), **config["bodies"]}
+    return {**own, "model": model_of(config, without=INITIAL_CONDITION)}
+
+
 def assumed_parts(config: dict, stated: dict) -> list[str]:
     """The differences of parts that the user does not state, so that the defaults are assumed."""
     return [name for name in config["parts"] if name not in (*stated.get("parts", {}), "seed")]
@@ -213,7 +232,8 @@ def drive_settings(config: dict) -> dict:
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     **dict.fromkeys(("operating/shares", "operating/regimes"), partial(box_settings, "operating")),
-    "operating/transit": transit_settings,
+    "operating/transit": blocks_settings,
+    **dict.fromkeys(("operating/bodies", "operating/body_shapes", "operating/landing"), bodies_settings),
     **dict.fromkeys(("operating/drift", "operating/track_lengths"), drift_settings),
     **dict.fromkeys(("operating/advice", "operating/changes"), advice_settings),
     "operating/throws": partial(box_settings, "throws"),

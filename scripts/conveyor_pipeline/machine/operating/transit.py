@@ -11,9 +11,9 @@ import numpy as np
 import pandas as pd
 from scipy.special import betainc
 
-from conveyor import Columns, transits
+from conveyor import Block, Columns, block_transits, transits
 from conveyor_pipeline.common import fields, grid
-from conveyor_pipeline.machine.operating.parts import population, with_calibration
+from conveyor_pipeline.machine.operating.parts import population, raise_blocks, tilts_of, with_calibration
 from conveyor_pipeline.machine.operating.populations import (
     IDENTICAL,
     POPULATIONS,
@@ -71,6 +71,22 @@ def follow(
     begin = time_of_drop(rows["frequency"], track["longest"][0])
     options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
     return transits(rows, begin=begin, **track, **options)
+
+
+def follow_blocks(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Columns:
+    """What `follow` returns, with airtime and largest_tilt, for blocks: parts with the section `body`."""
+    block = Block(settings["body"]["length"], settings["body"]["height"])
+    tilts = np.resize(tilts_of(settings), len(rows))  # the same in each population
+    longest = settings["longest"]
+    track = {"length": settings["length"], "longest": longest, "begin": time_of_drop(rows["frequency"], longest)}
+    options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
+    run = block_transits(raise_blocks(rows, block, tilts), block, tilts, **track, **options)
+    return Columns({**run, "arrival": run.arrival[:, None], "velocity": run.velocity[:, None]})
+
+
+def follow_parts(rows: np.ndarray, settings: dict, **options) -> Columns:
+    """`follow_blocks` if the settings have a `body`, else `follow`; populations lie below each other in the rows."""
+    return (follow_blocks if "body" in settings else follow)(rows, settings, **options)
 
 
 def quantiles(velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -152,7 +168,7 @@ def measure(amplitudes: np.ndarray, settings: dict, kinds: tuple[str, ...] = POP
     differ = any(differences(settings).values())
     distinct = kinds if differ else (IDENTICAL,)
     rows = np.concatenate([population(amplitudes, settings, kind) for kind in distinct])
-    table = summarize_populations(follow(rows, settings, **options), settings["starts"]).assign(
+    table = summarize_populations(follow_parts(rows, settings, **options), settings["starts"]).assign(
         acceleration=np.tile(amplitudes, len(distinct)), population=np.repeat(distinct, len(amplitudes))
     )
     if not differ:

@@ -14,7 +14,7 @@ from conveyor.arguments import (
     check_tolerance,
     check_type,
 )
-from conveyor.blocks import motion
+from conveyor.blocks import block_motion
 from conveyor.blocks.corners import CORNERS, ROWS, STATE, X
 from conveyor.blocks.steps import STAGES
 from conveyor.columns import Columns
@@ -57,7 +57,7 @@ class Block:
             check_number("inertia", self.inertia, LEAST_INERTIA, LARGEST_INERTIA, "m²")
 
     def row(self) -> list[float]:
-        """Length, height and inertia, as motion.follow takes them."""
+        """Length, height and inertia, as block_motion.follow takes them."""
         uniform = (self.length**2 + self.height**2) / 12.0
         return [self.length, self.height, uniform if self.inertia is None else self.inertia]
 
@@ -123,19 +123,19 @@ class BlockRun:
         blocks = np.array([self.block.row()])
         samples, _, _ = follow(rows, blocks, np.array([self.tilt]), moments[None], tolerance=self.tolerance)
         place = place.ravel()[:-1]
-        return {name: samples[0, place, k].reshape(times.shape) for k, name in enumerate(motion.SAMPLES)}
+        return {name: samples[0, place, k].reshape(times.shape) for k, name in enumerate(block_motion.SAMPLES)}
 
 
 def follow(rows, blocks, tilts, times, *, tolerance, since=None, distances=None):
-    """What motion.follow fills: samples, shape (n, k, 6), arrivals, shape (n, d), and results, shape (n, 10)."""
+    """What block_motion.follow fills: samples, shape (n, k, 6), arrivals, shape (n, d), and results, shape (n, 10)."""
     n, k = times.shape
     distances = np.empty(0) if distances is None else distances
     since = np.zeros(n) if since is None else since
-    samples, arrivals = np.empty((n, k, len(motion.SAMPLES))), np.empty((n, len(distances)))
-    results = np.zeros((n, motion.RESULTS))
+    samples, arrivals = np.empty((n, k, len(block_motion.SAMPLES))), np.empty((n, len(distances)))
+    results = np.zeros((n, block_motion.RESULTS))
     workspace = np.empty((4, STATE)), np.empty((STAGES, STATE)), np.empty((ROWS, CORNERS))
     options = tolerance, np.ascontiguousarray(times), since, samples, distances, arrivals, results, workspace
-    motion.follow(np.ascontiguousarray(rows), plate.count_harmonics(rows), blocks, tilts, *options)
+    block_motion.follow(np.ascontiguousarray(rows), plate.count_harmonics(rows), blocks, tilts, *options)
     return samples, arrivals, results
 
 
@@ -178,7 +178,7 @@ def simulate_block(
     rows, blocks = as_rows(parameter_table(conveyor, start))[None], np.array([block.row()])
     times, since = np.array([[before, duration]]), np.array([before])
     ((last, end),), _, (result,) = follow(rows, blocks, np.array([tilt]), times, tolerance=tolerance, since=since)
-    code = int(result[motion.CODE])
+    code = int(result[block_motion.CODE])
     known = 1.0 if code == OK else math.nan
     names = ("x_end", "vx_end", "z_end", "vz_end", "angle_end", "spin_end")
     return BlockRun(
@@ -191,12 +191,12 @@ def simulate_block(
         status=STATUS[code],
         x_last=float(last[X]),
         **dict(zip(names, end.tolist(), strict=True)),
-        largest_tilt=float(result[motion.TILT]),
-        airtime=known * float(result[motion.AIRTIME]) / duration,
-        impact_speed=known * float(result[motion.IMPACT_SPEED]),
-        peak_force=known * conveyor.mass * float(result[motion.PEAK_FORCE]),
-        flights=int(result[motion.FLIGHTS]),
-        steps=int(result[motion.STEPS]),
+        largest_tilt=float(result[block_motion.TILT]),
+        airtime=known * float(result[block_motion.AIRTIME]) / duration,
+        impact_speed=known * float(result[block_motion.IMPACT_SPEED]),
+        peak_force=known * conveyor.mass * float(result[block_motion.PEAK_FORCE]),
+        flights=int(result[block_motion.FLIGHTS]),
+        steps=int(result[block_motion.STEPS]),
     )
 
 
@@ -248,7 +248,7 @@ def block_transits(
             f"tilts and begin have the shapes {tilts.shape} and {begin.shape}, but parameters have ({len(rows)},)"
         )
     arrival, travelled = np.empty(len(rows)), np.empty(len(rows))
-    results = np.empty((len(rows), motion.RESULTS))
+    results = np.empty((len(rows), block_motion.RESULTS))
     distances, blocks = np.array([length]), np.tile(block.row(), (len(rows), 1))
 
     def work(first, behind):
@@ -257,7 +257,7 @@ def block_transits(
         options = {"tolerance": tolerance, "since": begin[part], "distances": distances}
         samples, arrivals, results[part] = follow(rows[part], blocks[part], tilts[part], times, **options)
         arrival[part], travelled[part] = arrivals[:, 0], samples[:, 0, X]
-        return np.count_nonzero(results[part, motion.CODE] != OK)
+        return np.count_nonzero(results[part, block_motion.CODE] != OK)
 
     for_each_chunk(work, len(rows), threads=threads, chunk=16, progress=progress)
     late = np.isnan(arrival)
@@ -266,12 +266,12 @@ def block_transits(
     columns = {
         "arrival": arrival,
         "velocity": np.where(late, travelled, length) / ends,
-        "impact_speed": np.where(known, results[:, motion.IMPACT_SPEED], np.nan),
-        "peak_force": np.where(known, parameters["mass"] * results[:, motion.PEAK_FORCE], np.nan),
-        "airtime": np.where(known, results[:, motion.AIRTIME], np.nan) / np.where(known, ends - begin, np.nan),
-        "largest_tilt": results[:, motion.TILT].copy(),
+        "impact_speed": np.where(known, results[:, block_motion.IMPACT_SPEED], np.nan),
+        "peak_force": np.where(known, parameters["mass"] * results[:, block_motion.PEAK_FORCE], np.nan),
+        "airtime": np.where(known, results[:, block_motion.AIRTIME], np.nan) / np.where(known, ends - begin, np.nan),
+        "largest_tilt": results[:, block_motion.TILT].copy(),
     }
     for column in columns.values():
-        column[results[:, motion.CODE] != OK] = np.nan
-    status = np.array(STATUS, dtype=object)[results[:, motion.CODE].astype(np.int64)]
+        column[results[:, block_motion.CODE] != OK] = np.nan
+    status = np.array(STATUS, dtype=object)[results[:, block_motion.CODE].astype(np.int64)]
     return Columns(columns | {"status": status})

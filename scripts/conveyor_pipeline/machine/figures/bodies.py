@@ -1,0 +1,89 @@
+"""Parts as bodies: a landing block, velocities of several shapes, and where a point mass has the right velocity."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from conveyor_pipeline.figures import style
+from conveyor_pipeline.machine.operating.body_limits import MOTIONS, RIGHT
+
+COLOURS = ("0.25", "#0072B2", "#D55E00", "#009E73")
+TITLES = {"ride": "points ride", "coexist": "points ride or jump", "chaos": "chaos"}
+
+
+def draw_landing(axes: Axes, landing: pd.DataFrame) -> None:
+    """The lower edge of the block above the plate at each time, side by side; heights are exaggerated."""
+    lowest = landing.plate.min()
+    for place, row in enumerate(landing.itertuples()):
+        ends = np.array([place + 0.12, place + 0.88])
+        axes.plot([place, place + 1.0], 1e6 * (np.array([row.plate] * 2) - lowest), color="0.6", linewidth=1.0)
+        edge = 1e6 * (np.array([row.rear, row.front]) - lowest)
+        axes.plot(ends, edge, color=COLOURS[1], linewidth=1.6)
+        for x, z in zip(ends, edge, strict=True):
+            axes.plot([x, x], [z, z + 60.0], color=COLOURS[1], linewidth=0.8)
+        axes.text(place + 0.5, -0.02, f"{row.time:+.2f}", transform=axes.get_xaxis_transform(), ha="center", va="top")
+    axes.set_xticks([])
+    axes.set_xlabel("time in cycles after the first contact", labelpad=12.0)
+    axes.set_ylabel("height in µm")
+
+
+def shape_name(row: pd.Series) -> str:
+    """A shape in a legend."""
+    return "point" if np.isnan(row.length) else f"length {row.length:.3g}, height/length {row.height:g}"
+
+
+def draw_map(axes: Axes, shapes: pd.DataFrame, motion: str) -> None:
+    """The relative difference of the median from that of points, over length and height; full cells are right."""
+    rows = shapes[shapes.motion == motion]
+    for row in rows.itertuples():
+        right = abs(row.difference) <= RIGHT
+        colour = COLOURS[0] if right else COLOURS[2]
+        axes.plot(
+            row.length, row.height, "s", color=colour, markerfacecolor=colour if right else "none", markersize=9.0
+        )
+        if np.isfinite(row.difference):
+            text = f"{100.0 * row.difference:+.0f}"
+            axes.text(
+                row.length, row.height, text, ha="center", va="center", color="white" if right else "black", fontsize=4
+            )
+    axes.set(xscale="log", yscale="log", xlabel=r"length in $g\,\cos\alpha/\omega^2$", title=TITLES[motion])
+    axes.margins(0.12)
+
+
+def plot(*, bodies: pd.DataFrame, shapes: pd.DataFrame, landing: pd.DataFrame) -> Figure:
+    """Draw a landing, velocities, shares and tilts over the amplitude, and three maps."""
+    figure = style.figure(style.PAGE, 165.0)
+    above, middle, below = figure.subfigures(3, 1, height_ratios=(0.75, 1.15, 1.1))
+    land = above.subplots()
+    draw_landing(land, landing)
+    fast, ride, tilt = middle.subplots(1, 3, width_ratios=(1.6, 1.0, 1.0))
+    groups = bodies.fillna({"length": -1.0, "height": -1.0}).groupby(["length", "height"], sort=False)
+    for colour, (_, index) in zip(COLOURS, groups.groups.items(), strict=False):
+        rows = bodies.loc[index]
+        fast.plot(rows.acceleration, 100.0 * rows.velocity_50, color=colour, label=shape_name(rows.iloc[0]))
+        fast.fill_between(
+            rows.acceleration,
+            100.0 * rows.velocity_05,
+            100.0 * rows.velocity_95,
+            color=colour,
+            alpha=0.15,
+            linewidth=0.0,
+        )
+        ride.plot(rows.acceleration, 100.0 * rows.rides, color=colour)
+        tilt.plot(rows.acceleration, rows.largest_tilt, color=colour)
+    for axes, label in (
+        (fast, "transit velocity in cm/s"),
+        (ride, "parts that ride in %"),
+        (tilt, "largest tilt in rad"),
+    ):
+        style.limit_x(axes, bodies.acceleration)
+        axes.set_xlabel(style.AMPLITUDE if axes is fast else r"$\hat a$ in m/s²")
+        axes.set_ylabel(label)
+    middle.legend(*fast.get_legend_handles_labels(), loc="outside upper center", ncols=4)
+    maps = below.subplots(1, 3, sharey=True)
+    for axes, motion in zip(maps, MOTIONS, strict=True):
+        draw_map(axes, shapes, motion)
+    maps[0].set_ylabel("height / length")
+    style.letter(land, fast, ride, tilt, *maps)
+    return figure

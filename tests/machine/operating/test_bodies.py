@@ -1,0 +1,78 @@
+"""Parts as blocks: starts above the plate, transit and advice of blocks, and the tables of shapes."""
+
+import numpy as np
+import pandas as pd
+import pytest
+from project import si_config
+
+from conveyor import Block
+from conveyor.packing import plate_heights
+from conveyor_pipeline.machine import checks
+from conveyor_pipeline.machine.operating import advice, bodies, body_limits, parts, populations, transit
+from conveyor_pipeline.machine.operating.settings import TABLE_SETTINGS
+
+BODY = {"length": 5e-3, "height": 1e-3, "tilt": 0.03}
+SETTINGS = TABLE_SETTINGS["operating/transit"]({**si_config(), "body": BODY}) | {"starts": 12, "longest": 4.0}
+
+
+def test_no_block_begins_in_the_plate():
+    rows, block = parts.population(np.array([40.0]), SETTINGS), Block(BODY["length"], BODY["height"])
+    tilts = parts.tilts_of(SETTINGS)
+    assert (np.abs(tilts) <= BODY["tilt"]).all() and tilts.min() < 0.0 < tilts.max()
+    raised = parts.raise_blocks(rows, block, tilts)
+    half = 0.5 * np.array([BODY["length"], BODY["height"]])
+    lowest = half[1] * (1.0 - np.cos(tilts)) - half[0] * np.abs(np.sin(tilts))
+    assert (raised["z0"] - plate_heights(rows) + lowest >= -1e-12).all()
+    assert (raised["z0"] >= rows["z0"]).all()
+    level = parts.raise_blocks(rows, block, np.zeros(len(rows)))
+    np.testing.assert_array_equal(level["z0"], rows["z0"])
+
+
+def test_a_flat_block_does_not_jump_where_points_ride_or_jump():
+    settings = SETTINGS | {"length": 0.1}
+    blocks = transit.measure(np.array([40.0]), settings, (populations.IDENTICAL,)).iloc[0]
+    points = {name: value for name, value in settings.items() if name != "body"}
+    masses = transit.measure(np.array([40.0]), points, (populations.IDENTICAL,)).iloc[0]
+    assert blocks.failed == masses.failed == 0
+    assert blocks.velocity_75 < 0.02 < masses.velocity_75
+
+
+def test_an_upright_block_that_is_tiny_moves_as_its_place_in_the_population_says():
+    """Populations below each other have the same tilts, and do not depend on threads."""
+    settings = SETTINGS | {"length": 0.02, "longest": 1.0}
+    rows = np.concatenate([parts.population(np.array([80.0]), settings)] * 2)
+    one, other = (transit.follow_parts(rows, settings, threads=threads) for threads in (1, 2))
+    np.testing.assert_array_equal(one.velocity, other.velocity)
+    np.testing.assert_array_equal(one.velocity[:12], one.velocity[12:])
+
+
+def test_the_advice_says_what_it_would_be_for_points():
+    settings = SETTINGS | {"length": 0.02, "longest": 1.0, "starts": 8}
+    table = transit.measure(np.array([40.0, 80.0]), settings)
+    table.attrs = settings
+    shares = pd.DataFrame({"acceleration": [40.0], "state": ["second"], "share": [1.0]})
+    found = advice.make(table, shares, {"range": (0.99, 1.01), "changes": {}})["advice"]
+    assert found["point_acceleration"][0] in (40.0, 80.0)
+    assert np.isfinite(found["point_velocity"][0])
+
+
+def test_tables_of_shapes():
+    config = si_config()
+    settings = TABLE_SETTINGS["operating/bodies"]({**config, "bodies": {"effort": 0.1}})
+    tables = bodies.make(settings)
+    curves, shapes, landing = (tables[name] for name in ("bodies", "body_shapes", "landing"))
+    assert len(curves) == 3 * (1 + len(bodies.SHAPES)) and len(shapes) == 4 * len(body_limits.MOTIONS)
+    assert (curves.failed == 0).all() and (shapes.failed == 0).all()
+    assert curves.largest_tilt.isna().sum() == 3
+    assert (shapes[shapes.motion == "ride"].rides == 1.0).all()
+    # The block touches the plate with one corner at the time zero.
+    first = landing[landing.time == 0.0].iloc[0]
+    assert min(first.rear, first.front) == pytest.approx(first.plate, abs=1e-6)
+
+
+def test_a_part_length_that_contradicts_the_body_is_refused():
+    config = si_config()
+    own = {**config, "body": BODY, "advice": {**config["advice"], "part_length": 0.02}}
+    (fault,) = checks.bodies(own, config, {})
+    assert "body.length = 0.005" in fault
+    assert not list(checks.bodies({**config, "body": BODY}, config, {}))
