@@ -13,6 +13,7 @@ from w = 0 to w = 0, without a singularity for p = 1 and 3/2. It is integrated b
 (1980). Nothing slow is imported, so that a program can convert a restitution before it loads NumPy and Numba.
 """
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -21,7 +22,7 @@ from .solver.law import spring_and_damper
 
 TOLERANCE = 1e-12  # of a step, in the units above
 NEGLIGIBLE = 1e-6  # a smaller restitution of a part that creeps out of a clipped contact counts as none
-FASTEST = RANGES["vz0"][1]  # m/s
+SLOWEST, FASTEST = 1e-6, RANGES["vz0"][1]  # m/s
 CONTACT = ("stiffness", "damping", "mass", "exponent", "gravity", "inclination")
 
 
@@ -31,11 +32,12 @@ def restitution(conveyor: Any, speed: float) -> float:
     Parameters
     ----------
     conveyor : a Conveyor, or any object with its stiffness, damping, mass, exponent, gravity, inclination and tension
-    speed : normal speed of the impact, above 0 and at most 100 m/s
+    speed : normal speed of the impact, 1e-6 to 100 m/s
 
     Returns
     -------
-    speed at which the part leaves over the speed of the impact, in [0, 1], to about 1e-10; 0 for a part that stays
+    speed at which the part leaves over the speed of the impact, in [0, 1], to about 1e-10 unless the part presses much
+    deeper at rest than in the impact; 0 for a part that stays
 
     Examples
     --------
@@ -54,7 +56,7 @@ def damping_of(restitution: float, speed: float, conveyor: Any) -> float:
     Parameters
     ----------
     restitution : above 0 and at most 1
-    speed : normal speed of the impact, above 0 and at most 100 m/s
+    speed : normal speed of the impact, 1e-6 to 100 m/s
     conveyor : as for `restitution`; its damping is not used
 
     Raises
@@ -101,6 +103,8 @@ def contact_of(conveyor: Any) -> dict[str, Any]:
 
 def groups(model: dict[str, Any], speed: float) -> tuple[float, float]:
     """The damping with D = 1 (N s/m), and the group G of an impact at a speed (m/s), see above."""
+    if speed < SLOWEST:
+        raise ValueError(f"speed = {speed!r} must be at least {SLOWEST:g} m/s")
     length = (model["mass"] * speed**2 / model["stiffness"]) ** (1.0 / (model["exponent"] + 1.0))
     return model["mass"] * speed / length, normal_gravity(model) * length / speed**2
 
@@ -126,6 +130,9 @@ def root(function: Callable[[float], float], low: float, high: float) -> float:
 def rebound(exponent: float, damping: float, gravity: float, clip: bool) -> float:
     """The coefficient of restitution from p, D and G; `clip` says that the force cannot pull."""
     closed, power = True, 2.0 * exponent
+    # A part at rest presses deeper than a slow impact does, and falls faster by this penetration.
+    rest = gravity ** (1.0 / exponent)
+    scale_w, scale_v = 1.0 + math.sqrt(rest), 1.0 + math.sqrt(2.0 * gravity * rest)
 
     def force(w: float, v: float) -> float:
         return spring_and_damper(abs(w) ** power, damping, v)
@@ -155,7 +162,7 @@ def rebound(exponent: float, damping: float, gravity: float, clip: bool) -> floa
         w7, v7 = rate(new_w, new_v)
         error_w = 71 / 57600 * w1 - 71 / 16695 * w3 + 71 / 1920 * w4 - 17253 / 339200 * w5 + 22 / 525 * w6 - w7 / 40
         error_v = 71 / 57600 * v1 - 71 / 16695 * v3 + 71 / 1920 * v4 - 17253 / 339200 * v5 + 22 / 525 * v6 - v7 / 40
-        return new_w, new_v, h * max(abs(error_w) / (1.0 + abs(w)), abs(error_v) / (1.0 + abs(v)))
+        return new_w, new_v, h * max(abs(error_w) / scale_w, abs(error_v) / scale_v)
 
     def is_over(w: float, v: float) -> bool:
         """Whether the part cannot leave: it has no energy left, or creeps."""
@@ -166,10 +173,13 @@ def rebound(exponent: float, damping: float, gravity: float, clip: bool) -> floa
         creeps = v <= 0.0 and square ** (exponent - 1.0) < 0.25 * damping**2 and -v < 0.5 * damping * square
         return creeps and (not clip or max(-v, square**exponent / damping) < NEGLIGIBLE)
 
-    w, v, length = 0.0, 1.0, 0.01
+    w, v, length = 0.0, 1.0, 0.01 / (1.0 + math.sqrt(damping + gravity))
     while True:
-        new_w, new_v, error = step(length)
-        if error > TOLERANCE:
+        try:
+            new_w, new_v, error = step(length)
+        except OverflowError:  # a step that is much too long
+            error = math.inf
+        if not error <= TOLERANCE:
             length *= max(0.2, 0.9 * (TOLERANCE / error) ** 0.2)
             continue
         taken, length = length, length * min(5.0, 0.9 * (TOLERANCE / max(error, 1e-30)) ** 0.2)

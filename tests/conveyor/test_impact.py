@@ -126,6 +126,7 @@ def test_damping_is_the_inverse_of_restitution(wanted, tension):
         (1.2, 0.1, r"restitution = 1.2 must be a number in \(0, 1\]"),
         (math.nan, 0.1, "restitution = nan must be"),
         (0.5, 0.0, r"speed = 0.0 must be a number in \(0, 100\] m/s"),
+        (0.5, 1e-200, "speed = 1e-200 must be at least 1e-06 m/s"),
         (0.5, True, "speed = True must be"),
         (0.5, "0.1", "speed = '0.1' must be"),
     ],

@@ -43,7 +43,7 @@ class Contact(TypedDict):
             "coefficient of restitution in a drop on the plate at rest, √(height after / height before); null: none",
         )
     ]
-    drop_height: number("height of this drop", "m", gt=0, le=100)
+    drop_height: number("height of this drop", "m", ge=1e-6, le=100)
 
 
 SECTIONS = {"contact": described(Contact, "the contact from materials and from a drop")}
