@@ -7,7 +7,7 @@ from typing_extensions import TypedDict
 from conveyor.materials import ELASTOMERS, STIFFEST, materials
 from conveyor_pipeline.common.settings import described, either, mapping, number, text
 from conveyor_pipeline.machine.contact.derive import contact_of
-from conveyor_pipeline.machine.operating.settings import transit_settings
+from conveyor_pipeline.machine.operating.settings import blocks_settings
 
 
 def material_form(value: Any) -> str | None:
@@ -51,7 +51,7 @@ SECTIONS = {"contact": described(Contact, "the contact from materials and from a
 
 def variants_settings(config: dict) -> dict:
     """The parts of the transit table, and the section `contact`."""
-    transit = {name: value for name, value in transit_settings(config).items() if name != "acceleration"}
+    transit = {name: value for name, value in blocks_settings(config).items() if name != "acceleration"}
     return {**transit, "contact": config["contact"]}
 
 

@@ -16,7 +16,7 @@ from conveyor.materials import material
 from conveyor_pipeline.common import fields
 from conveyor_pipeline.machine.contact.derive import NAMED, drop_speed, moduli_of, on_level_plate
 from conveyor_pipeline.machine.operating.parts import population
-from conveyor_pipeline.machine.operating.transit import MEASURES, follow, summarize_populations
+from conveyor_pipeline.machine.operating.transit import MEASURES, follow_parts, summarize_populations
 
 RADIUS = 2.0  # factor by which the radius of contact may be larger or smaller
 STATED = 2.0  # factor by which a stated stiffness may be larger or smaller
@@ -92,7 +92,7 @@ def make(advice: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str,
     for row in advice.itertuples():
         amplitude = np.array([row.acceleration])
         populations = [population(amplitude, {**settings, "model": model}) for model in models]
-        run = follow(np.concatenate(populations), settings, threads=threads)
+        run = follow_parts(np.concatenate(populations), settings, threads=threads)
         speed = 0.0 if math.isnan(row.impact_speed) else row.impact_speed
         for (variant, contact), model, measures in zip(
             found.items(), models, summarize_populations(run, settings["starts"]).to_dict("records"), strict=True
