@@ -127,6 +127,7 @@ def sample_runs(
     times: np.ndarray,
     *,
     columns: Sequence[str] = SAMPLES,
+    vx0: float | np.ndarray = 0.0,
     method: str = "event",
     tolerance: float = DEFAULT_TOLERANCE,
     step: float = DEFAULT_STEP,
@@ -144,6 +145,8 @@ def sample_runs(
     times : s, ascending, shape (n, k)
     columns : the wanted samples, among x, z (m), vx, vz (m/s), contact_force, friction_force (N);
         without x, vx and friction_force the horizontal motion is not followed
+    vx0 : m/s, velocity along the track at t = 0, a number or of the shape (n,); NaN continues a failed run. The
+        methods with a fixed step begin at rest
     method, tolerance, step, reuse : as in `simulate`
     skip : whether the event-driven method skips cycles between two samples in which the motion repeats itself
     threads, chunk, progress : as in `sweep`
@@ -173,6 +176,14 @@ def sample_runs(
     check_flag("reuse", reuse)
     threads = check_threads(threads)
     check_count("chunk", chunk, 1, 10**9)
+    vx0 = np.asarray(vx0, dtype=np.float64)
+    if vx0.shape not in ((), (len(rows),)):
+        raise ValueError(f"vx0 has the shape {vx0.shape}, but there are {len(rows)} parts")
+    if np.isinf(vx0).any():
+        raise ValueError("vx0 must be finite, or NaN after a failed run")
+    if method != "event" and vx0.any():
+        raise ValueError(f"vx0: the method {method} begins at rest; use the method event")
+    vx0 = np.full(len(rows), vx0)
     samples = {name: np.empty(times.shape) for name in columns}
     peaks, codes = np.full((2, len(rows)), np.nan), np.zeros(len(rows), np.int64)
     feeding = not {"x", "vx", "friction_force"}.isdisjoint(columns)
@@ -191,6 +202,7 @@ def sample_runs(
             tolerance=tolerance,
             feeding=feeding,
             reuse=reuse,
+            vx0=vx0[part],
             repetition=(CYCLES, SHARE * tolerance) if skip else EVERY_CYCLE,
         )
         for name, values in samples.items():

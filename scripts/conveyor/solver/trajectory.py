@@ -27,6 +27,7 @@ def integrate(
     distances: np.ndarray | None = None,
     arrivals: np.ndarray | None = None,
     since: np.ndarray | None = None,
+    vx0: np.ndarray | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Follow parts until the last of their `times` and sample them there.
 
@@ -47,6 +48,7 @@ def integrate(
         part of a cycle; NaN for distances that it does not reach
     since : float64, shape (n,), s, from which impact speeds and forces count; by default the last but one of the
         `times`, or 0 where there is one only
+    vx0 : float64, shape (n,), m/s, velocities along the track at t = 0; by default 0
 
     Returns
     -------
@@ -61,11 +63,14 @@ def integrate(
         distances, arrivals = np.empty(0), np.empty((n, 0))
     if since is None:
         since = np.ascontiguousarray(times[:, -2]) if k > 1 else np.zeros(n)
+    if vx0 is None:
+        vx0 = np.zeros(n)
     # Plain tuples, because numba takes several microseconds per call to find the type of a named tuple.
     records = (times, since, samples, event_times, event_kinds, arrivals, results)
     # `follow` expects results of zero.
     follow(
         parameters,
+        vx0,
         (tolerance, feeding, reuse, repetition, plate.count_harmonics(parameters)),
         records,
         distances,
@@ -75,11 +80,12 @@ def integrate(
 
 
 @compiled
-def follow(parameters, options, records, distances, series):
+def follow(parameters, vx0, options, records, distances, series):
     """The compiled part of `integrate`.
 
     Parameters
     ----------
+    vx0 : see `integrate`
     options : tolerance, feeding, reuse and repetition, see `integrate`; plate.count_harmonics
     records : the fields of a Record but `distances`, each with one more axis in front, that of the runs
     distances : see `integrate`
@@ -99,7 +105,7 @@ def follow(parameters, options, records, distances, series):
             Record(times[i], since[i], samples[i], event_times[i], event_kinds[i], distances, arrivals[i], results[i])
         )
         record.results[MAX_GAP] = max(motion.q, 0.0)
-        horizontal, block = Horizontal(0.0, 0.0, 0.0), first_block()
+        horizontal, block = Horizontal(0.0, vx0[i], 0.0), first_block()
         if motion.touching:
             horizontal = touch_down(c, motion, horizontal)
         while True:

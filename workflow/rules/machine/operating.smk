@@ -1,7 +1,7 @@
 # Where to run a conveyor: the attractors that initial conditions in a box reach, the transit of parts along a track, and what
 # follows for the operator.
 
-from conveyor_pipeline.machine.operating.settings import assumed_parts, key_of_amplitudes
+from conveyor_pipeline.machine.operating.settings import START_TABLES, assumed_parts, key_of_amplitudes
 
 # If the config says so, the parameters of parts are drawn from the samples of the calibration, around their best values. The overlay
 # exists only if the model explains the measurements.
@@ -95,6 +95,42 @@ rule advice:
     threads: THREADS
     params:
         **stage("conveyor_pipeline.machine.operating.advice", "operating/advice"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule start:
+    """Switching the drive on and off."""
+    input:
+        CALIBRATED_OVERLAY,
+        **CALIBRATED_PARTS,
+        **tables_of("operating/advice"),
+    output:
+        **tables_of(*(f"operating/{name}" for name in START_TABLES)),
+    log:
+        log_file("operating/start"),
+    benchmark:
+        benchmark_file("operating/start")
+    threads: THREADS
+    params:
+        **stage("conveyor_pipeline.machine.operating.start", "operating/start"),
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
+
+
+rule start_page:
+    """What follows for switching the drive, in words."""
+    input:
+        **tables_of("operating/advice", *(f"operating/{name}" for name in START_TABLES)),
+        template=source("workflow/templates/start.md"),
+    output:
+        page=result("start.md"),
+    log:
+        log_file("operating/start_page"),
+    benchmark:
+        benchmark_file("operating/start_page")
+    params:
+        **stage("conveyor_pipeline.machine.operating.start_page"),
     script:
         "../../../scripts/conveyor_pipeline/make.py"
 

@@ -20,6 +20,7 @@ from conveyor_pipeline.common.settings import (
     described,
     dimensionless,
     interval,
+    many,
     mapping,
     number,
     span,
@@ -98,6 +99,11 @@ class Supply(TypedDict):
     force: word("what the force of the drive grows with", *FORCES)
 
 
+class Switching(TypedDict):
+    rise: number("time in which the drive reaches its amplitude, and in which it stops", "s", gt=0, le=1e3)
+    push: many(number("speed of a push away from the plate", "m/s", gt=0, le=100), "pushes of a part on the plate")
+
+
 class Throws(TypedDict):
     throw_number: span(number("throw number a_z/(g cos α)", gt=0, le=100), "throw numbers")
     starts: whole("random initial conditions per throw number", 16, 10**6)
@@ -148,6 +154,7 @@ SECTIONS = {
     "drift": mapping("drift and diffusion in chaos, and the spread over the track's length", {"effort": Effort}),
     "advice": described(Advice, "advice on where to run the conveyor"),
     "supply": described(Supply, "range of the amplitude of a drive without a controller, in place of advice.margin"),
+    "start": described(Switching, "switching the drive on and off"),
     "throws": described(Throws, "comparison with the textbook theory of throw conveyors"),
     "track": described(Track, "velocity over inclination and phase shift"),
     "drive": described(Drive, "search for the settings of the drive"),
@@ -206,6 +213,12 @@ def parts_settings(config: dict, without: Iterable[str] = ()) -> dict:
     return {name: value for name, value in transit_settings(config, without).items() if name != "acceleration"}
 
 
+def start_settings(config: dict) -> dict:
+    """The parts and the amplitudes of the transit table, and how the drive is switched."""
+    own = {name: value for name, value in transit_settings(config).items() if name not in ("length", "longest")}
+    return {**own, **config["start"]}
+
+
 def drift_settings(config: dict) -> dict:
     """The parts of the transit table without their differences."""
     transit = {name: value for name, value in transit_settings(config).items() if name != "spread"}
@@ -229,6 +242,7 @@ def drive_settings(config: dict) -> dict:
     return {**parts_settings(config, without=drive["bounds"]), **drive, "margin": config["advice"]["margin"]}
 
 
+START_TABLES = ("start", "start_motions", "start_limits", "pushes")
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     **dict.fromkeys(("operating/shares", "operating/regimes"), partial(box_settings, "operating")),
@@ -236,6 +250,7 @@ TABLE_SETTINGS = {
     **dict.fromkeys(("operating/bodies", "operating/body_shapes", "operating/landing"), bodies_settings),
     **dict.fromkeys(("operating/drift", "operating/track_lengths"), drift_settings),
     **dict.fromkeys(("operating/advice", "operating/changes"), advice_settings),
+    **dict.fromkeys((f"operating/{name}" for name in START_TABLES), start_settings),
     "operating/throws": partial(box_settings, "throws"),
     "operating/track": partial(box_settings, "track"),
     **dict.fromkeys(("operating/drive_front", "operating/drive_generations"), drive_settings),

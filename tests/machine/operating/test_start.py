@@ -1,0 +1,190 @@
+"""Switching on and off: half cycles against one run and against SciPy, where the motion changes, and the page."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+from project import ROOT, si_config
+from scipy.integrate import solve_ivp
+
+from conveyor import Conveyor, sample_runs
+from conveyor_pipeline.config.tables import TABLES
+from conveyor_pipeline.machine.operating import start, start_page
+from conveyor_pipeline.machine.operating.parts import IDENTICAL, population
+
+SETTINGS = {**TABLES["operating/start"](si_config()), "starts": 1}
+HALF = 0.01  # s, of a cycle of 50 Hz
+TEMPLATE = (ROOT / "workflow/templates/start.md").read_text()
+
+
+def rows_of(**model: float) -> tuple[np.ndarray, dict]:
+    """The table of one part at an amplitude of 1 m/s², and its settings."""
+    settings = {**SETTINGS, "model": SETTINGS["model"] | model}
+    return population(np.ones(1), settings, IDENTICAL), settings
+
+
+def test_a_part_on_a_plate_at_rest_stays_there():
+    rows, settings = rows_of()
+    motion = start.at_rest(rows)
+    assert motion.gap[0] == pytest.approx(-((0.7e-3 * 9.81 / 5.0e5) ** (2.0 / 3.0)), rel=1e-12)
+    path, after = start.follow(rows, np.zeros(6), motion, settings)
+    assert np.abs(path.travelled).max() < 1e-12 and not path.flight.any()
+    assert after.gap[0] == pytest.approx(motion.gap[0], rel=1e-6)
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.9])
+def test_a_part_without_friction_keeps_its_velocity_while_the_amplitude_changes(shift):
+    """In the frame of a plate with a phase shift it has this velocity on average over a cycle."""
+    rows, settings = rows_of(friction=0.0, phase_shift=shift)
+    amplitudes = 20.0 + np.arange(8.0)
+    motion = start.at_rest(rows)
+    plate = start.plate_at_ends(settings["model"])
+    motion = motion._replace(slip=0.1 - amplitudes[0] * plate["vx"][:1])
+    path, after = start.follow(rows, amplitudes, motion, settings)
+    drift = np.concatenate([[0.0], np.cumsum(np.diff(amplitudes) * plate["vx"][[1, 0, 1, 0, 1, 0, 1]])])
+    assert path.travelled[:, 0] == pytest.approx((0.1 + drift) * HALF, abs=1e-9)
+    assert np.abs(drift).max() <= (0.0 if shift == 0.0 else plate["vx"][0]) + 1e-9
+    assert after.slip[0] == pytest.approx(0.1 + drift[-1] - amplitudes[-1] * plate["vx"][0], abs=1e-9)
+
+
+def test_half_cycles_of_one_amplitude_are_one_run():
+    """Also with a phase shift and harmonics of the plate."""
+    harmonics = [{"order": 2, "along": 0.1, "along_phase": 0.3, "normal": 0.1, "normal_phase": 1.0}]
+    rows, settings = rows_of(phase_shift=0.5, harmonics=harmonics)
+    motion = start.at_rest(rows)._replace(rate=np.array([0.3]))
+    path, _ = start.follow(rows, np.full(40, 40.0), motion, settings)
+    plate = start.plate_at_ends(settings["model"])
+    whole = rows.copy()
+    whole["acceleration"], whole["psi0"] = 40.0, 0.0
+    whole["z0"], whole["vz0"] = 40.0 * plate["z"][0] + motion.gap, 40.0 * plate["vz"][0] + motion.rate
+    times = HALF * np.arange(41.0)[None]
+    run = sample_runs(whole, times, columns=["x"], vx0=40.0 * plate["vx"][:1], tolerance=settings["tolerance"])
+    assert np.cumsum(path.travelled[:, 0]) == pytest.approx(run.x[0, 1:], abs=1e-7)
+
+
+def reference(first: float, rate: float, begin: start.Motion, cycles: int) -> np.ndarray:
+    """Positions x (m) at the end of each cycle by SciPy, for an amplitude that changes evenly, by `rate` (m/s³).
+
+    The plate moves as z_s = -a(t)/ω² cos ωt, with all terms of its velocity. Friction is steep, but continuous.
+    """
+    c, omega = Conveyor(), 2.0 * math.pi * 50.0
+    normal, along = math.sin(c.angle), math.cos(c.angle)
+
+    def plate(t):
+        a = first + rate * t
+        position = -a / omega**2 * math.cos(omega * t)
+        velocity = a / omega * math.sin(omega * t) - rate / omega**2 * math.cos(omega * t)
+        return position, velocity
+
+    def motion(t, state):
+        _, vx, z, vz = state
+        position, velocity = plate(t)
+        gap, closing = z - normal * position, vz - normal * velocity
+        force = (c.stiffness * max(-gap, 0.0) ** c.exponent - c.damping * closing) / c.mass if gap <= 0.0 else 0.0
+        rub = c.friction * force * math.tanh((along * velocity - vx) / 2e-4)
+        return vx, rub, vz, force - c.gravity
+
+    position, velocity = plate(0.0)
+    at = [along * velocity + begin.slip[0], normal * position + begin.gap[0], normal * velocity + begin.rate[0]]
+    ends = np.arange(cycles + 1) / 50.0
+    run = solve_ivp(motion, (0.0, ends[-1]), [0.0, *at], "LSODA", ends, rtol=1e-7, atol=1e-10, max_step=5e-4)
+    return run.y[0]
+
+
+def settled_jump(rows: np.ndarray, settings: dict) -> start.Motion:
+    """The jumping motion at 40 m/s², to which a part that is released at a height of 0.3 mm settles."""
+    released = start.at_rest(rows)._replace(gap=np.array([3.85e-4]))
+    path, motion = start.follow(rows, np.full(120, 40.0), released, settings)
+    assert path.flight[-2:].max() > 0.9
+    return motion
+
+
+@pytest.mark.parametrize(("first", "last", "jumps"), [(30.0, 44.0, False), (40.0, 30.0, True)])
+def test_slow_ramps_are_those_of_an_amplitude_that_changes_evenly(first, last, jumps):
+    """A part that rides on the way up, and one that jumps on the way down: velocities over ten cycles each."""
+    rows, settings = rows_of()
+    cycles = 40
+    slope = (last - first) / (cycles / 50.0)
+    amplitudes = first + slope * HALF * (np.arange(2 * cycles) + 0.5)
+    motion = settled_jump(rows, settings) if jumps else start.at_rest(rows)
+    path, _ = start.follow(rows, amplitudes, motion, settings)
+    x = reference(first, slope, motion, cycles)
+    travelled = path.travelled[:, 0].reshape(cycles, 2).sum(axis=1)
+    assert (path.flight.max() >= 0.5) == jumps
+    for begin in (0, 10, 20, 30):
+        exact = (x[begin + 10] - x[begin]) / 0.2
+        assert travelled[begin : begin + 10].sum() / 0.2 == pytest.approx(exact, rel=0.03, abs=2e-4)
+
+
+def test_motions_of_the_papers_conveyor_live_to_their_folds():
+    """On the way up, the riding motion ends in a fold at 59.32 m/s²; on the way down, the jumping one at 23.98."""
+    rows, settings = rows_of()
+    up, down = start.slow_amplitudes(54.0, 62.0), start.slow_amplitudes(21.0, 40.0)[::-1]
+    rising, _ = start.follow(rows, up, start.at_rest(rows), settings)
+    assert 59.32 < up[np.argmax(rising.flight[:, 0] >= 0.5)] < 60.2
+    falling, _ = start.follow(rows, down, settled_jump(rows, settings), settings)
+    assert 23.0 < down[np.flatnonzero(falling.flight[:, 0] >= 0.5)[-1]] < 23.98
+
+
+def test_limits_are_quantiles_of_the_parts_that_differ():
+    """Part 0 is that of the config. Part 3 never jumps on the way up, and always on the way down."""
+    up = np.array([20.0, 30.0, 40.0])
+    rising = np.array([[0.0, 0.0, 0.0, 0.0], [0.0, 0.9, 0.0, 0.0], [0.9, 0.9, 0.9, 0.0]])
+    falling = np.array([[0.9, 0.9, 0.9, 0.9], [0.0, 0.9, 0.0, 0.9], [0.0, 0.0, 0.0, 0.9]])
+    paths = [start.Path(flight, flight, flight) for flight in (rising, falling)]
+    found = pd.DataFrame(start.limits_of(up, up[::-1], tuple(paths)))
+    assert found.acceleration.replace({np.nan: None}).tolist() == [40.0, 30.0, 40.0, None, 40.0, 40.0, 30.0, 20.0]
+
+
+def test_a_motion_repeats_itself_if_its_gaps_do():
+    cycle = np.arange(40.0)
+    gaps = np.column_stack([np.ones(40), cycle % 3.0, np.sin(cycle), cycle % 9.0])
+    assert start.repeats(gaps, np.ones(4)).tolist() == [True, True, False, False]
+
+
+def test_the_amplitude_rises_stays_and_falls():
+    amplitudes, ways = start.switching(50.0, {**SETTINGS, "rise": 0.1})
+    assert np.count_nonzero(ways == "up") == np.count_nonzero(ways == "down") == 10
+    assert amplitudes[:2].tolist() == [2.5, 7.5] and amplitudes[-1] == 2.5
+    assert set(amplitudes[ways == "stay"]) == {50.0}
+
+
+@pytest.fixture(scope="module")
+def made() -> tuple[pd.DataFrame, dict[str, pd.DataFrame]]:
+    advice = pd.DataFrame({"aim": ["fast", "even"], "acceleration": [44.0, 40.0], "throw_number": [0.93, 0.85]})
+    few = {**SETTINGS, "starts": 12, "acceleration": {"start": 38.0, "stop": 46.0, "num": 5}, "push": [0.3]}
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in (("HOLD", 30), ("PUSHED", 30), ("STEP", 1e-2)):
+            patch.setattr(start, name, value)
+        tables = {name: pd.DataFrame(columns) for name, columns in start.make(advice, few).items()}
+    for table in tables.values():
+        table.attrs = few
+    return advice, tables
+
+
+def test_the_page_says_whether_it_matters_how_the_drive_is_switched_on(made):
+    """At these amplitudes, parts that lie on the plate ride, and some of the dropped parts jump."""
+    advice, tables = made
+    page = start_page.make(TEMPLATE, advice, *(tables[name] for name in start.TABLES))
+    first = page.splitlines()[2]
+    assert first.startswith(
+        "**Switched on at 44 m/s² (Γ = 0.93, 0.892 mm peak to peak), the fast amplitude, all parts ride"
+    )
+    assert "depends on how you switch on" in first
+    assert "ride at all amplitudes up to" in first
+    assert page.count("| switched on with the parts on the plate | 0 % |") == 2
+    assert "None" not in page and "nan" not in page
+
+
+def test_a_push_makes_riding_parts_jump(made):
+    _, tables = made
+    pushes = tables["pushes"][tables["pushes"].aim == "even"].set_index("speed")
+    assert pushes.riding.tolist() == [12, 12]
+    assert pushes.made_jump[0.0] == 0.0 < pushes.made_jump[0.3]
+
+
+def test_differences_within_the_sampling_error_do_not_count():
+    ways = [{"jumping": 0.5}, {"jumping": 0.58}, {"jumping": None}]
+    assert not start_page.depends(ways, 256)
+    assert start_page.depends([{"jumping": 0.5}, {"jumping": 0.65}], 256)
