@@ -5,11 +5,21 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .arguments import LONGEST, check_array, check_choice, check_count, check_flag, check_threads, check_tolerance
+from .arguments import (
+    LONGEST,
+    check_array,
+    check_choice,
+    check_count,
+    check_flag,
+    check_numbers,
+    check_threads,
+    check_tolerance,
+)
 from .columns import Columns
 from .methods import fixed_step
 from .packing import check_rows
 from .parallel import for_each_chunk
+from .parameters import RANGES
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
 from .solver import record, trajectory
 from .solver.arrivals import CYCLES, EVERY_CYCLE, ON_TRACK, SHARE
@@ -176,11 +186,12 @@ def sample_runs(
     check_flag("reuse", reuse)
     threads = check_threads(threads)
     check_count("chunk", chunk, 1, 10**9)
-    vx0 = np.asarray(vx0, dtype=np.float64)
+    vx0 = check_numbers("vx0", vx0).astype(np.float64)
     if vx0.shape not in ((), (len(rows),)):
         raise ValueError(f"vx0 has the shape {vx0.shape}, but there are {len(rows)} parts")
-    if np.isinf(vx0).any():
-        raise ValueError("vx0 must be finite, or NaN after a failed run")
+    fastest = RANGES["vz0"][1]
+    if (np.abs(vx0) > fastest).any():
+        raise ValueError(f"vx0 must be at most {fastest:g} m/s in size, or NaN after a failed run")
     if method != "event" and vx0.any():
         raise ValueError(f"vx0: the method {method} begins at rest; use the method event")
     vx0 = np.full(len(rows), vx0)

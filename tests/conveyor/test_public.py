@@ -54,6 +54,7 @@ FUNCTIONS = {
     "transits": {"parameters": TABLE, "lengths": [1e-3], "longest": [0.05], "begin": 0.01, "tolerance": 1e-8}
     | {"threads": 1},
     "sample_runs": {"parameters": TABLE, "times": [[0.0, 0.01]] * 2, "columns": ["x"], "method": "event"}
+    | {"vx0": 0.0}
     | {"tolerance": 1e-8, "step": 1e-5, "reuse": True, "threads": 1, "chunk": 10},
     "classify": {"parameters": TABLE, "cycles": 10, "exponents": True, "tolerance": 1e-8, "threads": 1},
     "find_attractors": {"parameters": TABLE, "cycles": 10, "orbits": True, "tolerance": 1e-8, "threads": 1},

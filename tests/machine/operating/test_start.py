@@ -11,7 +11,8 @@ from scipy.integrate import solve_ivp
 from conveyor import Conveyor, sample_runs
 from conveyor_pipeline.config.tables import TABLES
 from conveyor_pipeline.machine.operating import start, start_page
-from conveyor_pipeline.machine.operating.parts import IDENTICAL, population
+from conveyor_pipeline.machine.operating.parts import population
+from conveyor_pipeline.machine.operating.populations import IDENTICAL
 
 SETTINGS = {**TABLES["operating/start"](si_config()), "starts": 1}
 HALF = 0.01  # s, of a cycle of 50 Hz

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
-from conveyor_pipeline.machine.operating.advice import FAST
-from conveyor_pipeline.machine.operating.start import CYCLES, STEP
+from conveyor_pipeline.machine.operating.populations import FAST
+from conveyor_pipeline.machine.operating.ramps import CYCLES, STEP
 
 
 def numbers(*, motions: pd.DataFrame) -> dict:

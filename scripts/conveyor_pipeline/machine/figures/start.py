@@ -5,9 +5,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from conveyor_pipeline.figures import style
-from conveyor_pipeline.machine.operating.advice import FAST
-from conveyor_pipeline.machine.operating.parts import VARIED
-from conveyor_pipeline.machine.operating.start import AT_REST, DOWN, SLOWLY, STAY, UP
+from conveyor_pipeline.machine.operating.populations import FAST, VARIED
+from conveyor_pipeline.machine.operating.ramps import AT_REST, DOWN, SLOWLY, STAY, UP
 
 COLOURS = {UP: "#0072B2", DOWN: "#D55E00"}
 

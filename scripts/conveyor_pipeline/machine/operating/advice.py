@@ -15,7 +15,7 @@ import pandas as pd
 from conveyor import RANGES, throw_number
 from conveyor_pipeline.common import fields
 from conveyor_pipeline.machine.operating.parts import population, with_calibration
-from conveyor_pipeline.machine.operating.populations import PROBABILITIES, VARIED
+from conveyor_pipeline.machine.operating.populations import EVEN, FAST, PROBABILITIES, VARIED
 from conveyor_pipeline.machine.operating.transit import (
     MEASURES,
     follow_parts,
@@ -24,7 +24,6 @@ from conveyor_pipeline.machine.operating.transit import (
     summarize_populations,
 )
 
-FAST, EVEN = "fast", "even"
 RESAMPLES = 400  # of the parts, for the standard errors of changes
 KEPT = 0.9  # of the 5 % quantile at the advised amplitude, which a controller must keep
 HALVINGS = 6  # of the step between two amplitudes, to find how far the amplitude may be off

@@ -1,10 +1,14 @@
-"""Populations of parts, and quantiles of their transit, as texts name them. No slow imports, for captions."""
+"""Populations of parts, quantiles of their transit and aims of the advice, as texts name them.
+
+No slow imports, for captions.
+"""
 
 # The parameters that differ from part to part, in the order of their random numbers.
 COLUMNS = ("friction", "damping", "stiffness", "mass", "acceleration")
 IDENTICAL, VARIED = POPULATIONS = ("identical", "varied")
 PROBABILITIES = (0.05, 0.25, 0.5, 0.75, 0.95)
 QUANTILES = tuple(f"velocity_{round(100 * probability):02d}" for probability in PROBABILITIES)
+FAST, EVEN = "fast", "even"  # see `advice`
 # The quantiles of the slowest and of the fastest parts, %.
 ENDS = [round(100 * PROBABILITIES[place]) for place in (0, -1)]
 

@@ -20,21 +20,28 @@ from conveyor import plate_motion, replace_parameters, sample_runs
 from conveyor.analysis.attractors.labels import LONG_FLIGHT
 from conveyor.elementary import cos, exp, log
 from conveyor_pipeline.common import fields, grid
-from conveyor_pipeline.machine.operating.parts import IDENTICAL, VARIED, population, with_calibration
-from conveyor_pipeline.machine.operating.transit import PROBABILITIES, quantiles
+from conveyor_pipeline.machine.operating.parts import population, with_calibration
+from conveyor_pipeline.machine.operating.populations import IDENTICAL, PROBABILITIES, VARIED
+from conveyor_pipeline.machine.operating.ramps import (
+    AT_REST,
+    COUNTED,
+    CYCLES,
+    DOWN,
+    FED,
+    HOLD,
+    KINDS,
+    PUSHED,
+    REPEATS,
+    SLOWLY,
+    STAY,
+    STEP,
+    UP,
+    WAYS,
+)
+from conveyor_pipeline.machine.operating.transit import quantiles
 
-# How a part gets onto the plate.
-AT_REST, DROPPED, FED = KINDS = ("at rest", "dropped", "dropped at full amplitude")
-UP, STAY, DOWN = WAYS = ("up", "stay", "down")
-SLOWLY = "slow"  # the aim of ramps over all amplitudes; the other ramps lead to the amplitude of an aim of the advice
 SAMPLES = 16  # per half cycle, to find flights
-STEP = 1e-3  # relative step of the amplitude in slow ramps, per half cycle
-CYCLES = 10  # per row of a slow ramp
 ROWS = 25  # of a rise or a fall of the drive, at most
-HOLD = 240  # cycles at the full amplitude; the last third counts
-PUSHED = 120  # cycles after a push; the last third counts
-COUNTED = 3  # the last part of them, 1/3, counts
-REPEATS = 8  # longest period, in cycles, of a motion that repeats itself
 SAME = 1e-3  # of the plate's amplitude: largest difference of gaps that count as equal
 LAST = (0.05, 0.5, 0.95)  # shares of the parts that have changed their motion
 MEASURES = (

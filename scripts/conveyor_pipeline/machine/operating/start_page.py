@@ -8,8 +8,8 @@ import pandas as pd
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.advice import EVEN, FAST
 from conveyor_pipeline.machine.operating.chart import stroke
-from conveyor_pipeline.machine.operating.parts import IDENTICAL, VARIED, differences
-from conveyor_pipeline.machine.operating.start import (
+from conveyor_pipeline.machine.operating.populations import IDENTICAL, VARIED, differences
+from conveyor_pipeline.machine.operating.ramps import (
     AT_REST,
     COUNTED,
     CYCLES,
@@ -17,13 +17,13 @@ from conveyor_pipeline.machine.operating.start import (
     DROPPED,
     FED,
     HOLD,
-    LAST,
     PUSHED,
     REPEATS,
     SLOWLY,
     STEP,
     UP,
 )
+from conveyor_pipeline.machine.operating.start import LAST
 
 # Smallest difference of shares of jumping parts at which the way of switching on counts, besides two standard errors.
 DEPENDS = 0.05

@@ -1,0 +1,12 @@
+"""How the amplitude changes when the drive is switched on and off. No slow imports, for captions."""
+
+# How a part gets onto the plate.
+AT_REST, DROPPED, FED = KINDS = ("at rest", "dropped", "dropped at full amplitude")
+UP, STAY, DOWN = WAYS = ("up", "stay", "down")
+SLOWLY = "slow"  # the aim of ramps over all amplitudes; the other ramps lead to the amplitude of an aim of the advice
+STEP = 1e-3  # relative step of the amplitude in slow ramps, per half cycle
+CYCLES = 10  # per row of a slow ramp
+HOLD = 240  # cycles at the full amplitude; the last third counts
+PUSHED = 120  # cycles after a push; the last third counts
+COUNTED = 3  # the last part of them, 1/3, counts
+REPEATS = 8  # longest period, in cycles, of a motion that repeats itself
