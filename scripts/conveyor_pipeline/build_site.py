@@ -9,13 +9,14 @@ import numba
 # Snakemake puts the folder of all packages last on the path; an installed copy of the library would come first.
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from conveyor_pipeline.common.rule_log import logged
+from conveyor_pipeline.common.rule_log import check_code, logged
 from conveyor_pipeline.pages import site
 
 if __name__ == "__main__":
     # Compiled functions have no signature for the documentation. Must be set before Sphinx imports the library.
     numba.config.DISABLE_JIT = True
     with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
+        check_code(snakemake.params.code)
         given = snakemake.input
         extra = {"figures": given.pdf, "": [given.article, given.companion]}
         pages = {

@@ -9,7 +9,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from conveyor_pipeline.common import tables
-from conveyor_pipeline.common.rule_log import logged
+from conveyor_pipeline.common.rule_log import check_code, logged
 from conveyor_pipeline.figures import style
 from conveyor_pipeline.figures.titles import package_of
 
@@ -35,6 +35,7 @@ def draw(name: str, paths: Mapping[str, str], expected: Mapping[str, list], sett
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
+        check_code(snakemake.params.code)
         name, params = snakemake.wildcards.figure, snakemake.params
         figure = draw(name, dict(snakemake.input.items()), params.expected, params.settings)
         style.save(figure, snakemake.output)

@@ -8,10 +8,11 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from conveyor_pipeline.common import grid, tables
-from conveyor_pipeline.common.rule_log import logged
+from conveyor_pipeline.common.rule_log import check_code, logged
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
+        check_code(snakemake.params.code)
         (kind,) = snakemake.output.keys()
         params = snakemake.params
         expected = partial(grid.columns_of_axes, params.settings["axes"])

@@ -23,7 +23,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from conveyor_pipeline.common import csv_table, fields, tables
-from conveyor_pipeline.common.rule_log import COMPILED, logged
+from conveyor_pipeline.common.rule_log import COMPILED, check_code, logged
 
 
 def read(path: str, expected: dict[str, list]) -> Any:
@@ -74,7 +74,7 @@ def write(stage: ModuleType, name: str, path: str, content: Any, settings: dict)
 def run(job: Any) -> None:
     """Run one job of Snakemake."""
     params = dict(job.params.items())
-    del params["code"]  # only for Snakemake, which reruns the job if the code behind it has changed
+    check_code(params.pop("code"))
     stage = importlib.import_module(params.pop("stage"))
     arguments = read_inputs(dict(job.input.items()), params.pop("expected")) | params
     optional = {"threads": job.threads, "progress": " ".join([job.rule, *job.wildcards])}

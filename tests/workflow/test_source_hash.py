@@ -190,7 +190,10 @@ def test_plots_depend_on_no_solver():
     for figure in ("fig03", "fig22"):
         files = (
             "draw",
+            "common/code_state",
+            "common/imports",
             "common/rule_log",
+            "common/source_hash",
             "common/tables",
             "figures/style",
             "figures/titles",

@@ -4,10 +4,14 @@ import re
 import signal
 
 from conveyor_pipeline.figures.titles import caption_file, package_of, title_of
-from conveyor_pipeline.common.source_hash import source_hash
+from conveyor_pipeline.common.code_state import STATE, code_state
+from conveyor_pipeline.common.source_hash import code_of
 from conveyor_pipeline.config.entries import ENTRIES
 from conveyor_pipeline.config.files import DEFAULT_FILES, ROOT
 from conveyor_pipeline.config.tables import kind_of, references, references_of, settings_of
+
+# Jobs compare it with the files that they import.
+os.environ[STATE] = code_state()
 
 # Keep pyarrow's allocator from huge pages: clearing one takes 5 to 14 ms on a virtual machine, and joining shards takes 8 % more
 # memory with them.
@@ -121,7 +125,7 @@ def stage(module, reference=None, scripts=lambda wildcards: ()):
     """
 
     def code(wildcards):
-        return source_hash("conveyor_pipeline/make", module.format(**wildcards).replace(".", "/"), *scripts(wildcards))
+        return code_of("conveyor_pipeline/make", module.format(**wildcards).replace(".", "/"), *scripts(wildcards))
 
     # Not a function of the output: Snakemake does not rerun jobs after a change of params that depend on inputs or outputs.
     def settings(wildcards):

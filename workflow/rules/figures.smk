@@ -19,7 +19,7 @@ rule plot:
     params:
         settings=lambda wildcards: settings_of_figure(wildcards.figure),
         expected=expected,
-        code=lambda wildcards: source_hash("conveyor_pipeline/draw", *figure_modules(wildcards.figure)),
+        code=lambda wildcards: code_of("conveyor_pipeline/draw", *figure_modules(wildcards.figure)),
     script:
         "../../scripts/conveyor_pipeline/draw.py"
 

@@ -1,14 +1,15 @@
 """The log of a rule: the stderr of its script, and the traceback if it fails."""
 
 import importlib.util
+import os
 import sys
 import traceback
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from pathlib import Path
 from typing import TextIO
 
-SCRIPTS = Path(__file__).resolve().parents[2]  # the folder whose code the rules hash
+from conveyor_pipeline.common.code_state import SCRIPTS, STATE, code_state
+
 COMPILED = "Time to compile: "  # a line in the log of a job that compiled functions
 
 
@@ -55,6 +56,22 @@ def check_imports() -> None:
                 f"this job would run {origin}, but the rules hash {package}; uninstall the package {package.name}, or "
                 "remove its folder from PYTHONPATH"
             )
+
+
+def check_code(hashed: str) -> None:
+    """Check that the code of a job is still the one that the Snakefile hashed: its param `code`.
+
+    Raises
+    ------
+    JobError
+        the table would be taken for one of the earlier code, also after the change is undone
+    """
+    if os.environ.get(STATE) == code_state():
+        return
+    from conveyor_pipeline.common.source_hash import code_of
+
+    if code_of(*hashed.split()[1:]) != hashed:
+        raise JobError("the code of this job was changed after Snakemake had read it; run Snakemake again")
 
 
 def visible_text(line: str) -> str:

@@ -11,11 +11,11 @@ from functools import cache
 from importlib import metadata
 from pathlib import Path
 
+from conveyor_pipeline.common.code_state import SCRIPTS
 from conveyor_pipeline.common.imports import all_imports
 
 # Without its last number: such versions only mend faults.
 PYTHON = f"{sys.version_info.major}.{sys.version_info.minor}"
-SCRIPTS = Path(__file__).resolve().parents[2]
 # Distributions whose version matters although no source imports them.
 BEHIND = {"numba": ("llvmlite",), "matplotlib": ("pillow",)}
 
@@ -84,3 +84,8 @@ def source_hash(*scripts: str) -> str:
     for package in versions(packages):
         digest.update(f"{package}\0".encode())
     return digest.hexdigest()[:16]
+
+
+def code_of(*scripts: str) -> str:
+    """The param `code` of rules: the hash of scripts, and their names, so that a job can hash them again."""
+    return " ".join([source_hash(*scripts), *scripts])

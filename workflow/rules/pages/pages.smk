@@ -238,7 +238,7 @@ rule site:
     resources:
         mem_mb=1500,
     params:
-        code=lambda wildcards: source_hash("conveyor_pipeline/build_site", *LIBRARY),
+        code=lambda wildcards: code_of("conveyor_pipeline/build_site", *LIBRARY),
     script:
         "../../../scripts/conveyor_pipeline/build_site.py"
 

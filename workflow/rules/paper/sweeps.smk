@@ -62,6 +62,6 @@ rule joined_sweeps:
     params:
         settings=lambda wildcards: settings_of(config, f"sweeps/{wildcards.name}"),
         points=points_of_sweep,
-        code=lambda wildcards: source_hash("conveyor_pipeline/gather"),
+        code=lambda wildcards: code_of("conveyor_pipeline/gather"),
     script:
         "../../../scripts/conveyor_pipeline/gather.py"
