@@ -106,12 +106,32 @@ def test_noise_near_a_harmonic_is_the_error_of_this_harmonic():
     assert max(first, third) < 0.1 * second
 
 
-def test_noise_makes_no_harmonics():
-    random, alarms = np.random.default_rng(29), 0
+@pytest.mark.parametrize("kind", ["plain", "short", "colour", "steps", "same phases"])
+def test_noise_makes_no_harmonics(kind):
+    random = np.random.default_rng(29)
     for seed in range(20):
-        drive = replace(random_drive(random, "plain"), harmonics=())
-        alarms += estimate(drive, seed)[1]["above_noise"].any()
-    assert alarms <= 2
+        drive = replace(random_drive(random, kind), harmonics=())
+        assert not estimate(drive, seed)[1]["above_noise"].any()
+
+
+@pytest.mark.parametrize("distance", [0.7, 1.5, 3.0])
+def test_a_line_beside_an_order_is_no_harmonic(distance):
+    """Its distance in units of 1/T; the fit of the harmonic takes a part of it."""
+    for order in (2, 3):
+        drive = Drive(noise=0.1, cycles=100.0)
+        frequency = (order + distance / drive.cycles) * drive.frequency
+        _, columns = estimate(replace(drive, also={frequency: 0.3}))
+        assert not columns["above_noise"].any()
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_a_harmonic_of_one_per_cent_is_found_in_noise_of_a_fifth(order):
+    for seed in range(5):
+        drive = Drive(
+            harmonics=((order, 0.01, 0.4, 0.01, -2.0),), noise=0.002 * 40.0 * np.sin(0.3), cycles=30.0, rate=800.0
+        )
+        columns = estimate(drive, seed)[1]
+        assert list(columns["order"][columns["along_above_noise"] & columns["normal_above_noise"]]) == [order]
 
 
 def test_harmonics_above_the_noise_are_named_by_axis():

@@ -1,6 +1,7 @@
 """Recordings as loggers write them: right within their intervals, or refused with the cause and the value that fits."""
 
 import gzip
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,7 @@ from conveyor_pipeline.common.csv_table import TableError, read_text
 from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
 from conveyor_pipeline.machine.excitation import measure
-from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY
+from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY, turn
 from conveyor_pipeline.machine.excitation.sample_times import EVEN, ROUNDED, STAMPED, resolve
 
 PURE = Drive(cycles=100.0, rate=1600.0, noise=0.1, bias=(0.0, 0.0), mount=0.2)
@@ -85,6 +86,15 @@ def test_buffers_with_the_time_of_the_host_count_as_evenly_spaced(length, bus):
     assert found[3]["rate_error"] < 1e-3
 
 
+def test_buffers_that_fit_two_frequencies_are_refused_with_what_decides():
+    """Stamped 3.5 times too fast, buffers of 16 samples show 50 Hz as 50 Hz plus the rate of the buffers, too."""
+    rate = 1600.0 * 50.0 / 40.0  # so that 3.5 · 50 Hz = 50 Hz + rate/16
+    time, readings = sampled(rate, noise=0.5)
+    text = text_of(buffered(time, 16, 3.5 * rate), readings)
+    assert "state model.frequency, and excitation.rate: 2000 if" in fault_of(text)
+    assert_right(estimates(text, rate=rate))
+
+
 def test_random_delays_of_the_host_count_as_evenly_spaced():
     delays = np.random.default_rng(3).uniform(0.0, 0.9, len(TIMES)) / PURE.rate
     found = estimates(text_of(TIMES + delays, READINGS))
@@ -125,6 +135,44 @@ def test_lost_samples_are_refused_also_where_they_look_like_harmonics(every):
     assert f"If every {every}th sample is lost, the drive vibrates at 50" in fault_of(text)
 
 
+@pytest.mark.parametrize("count", [1, 3, 30])
+@pytest.mark.parametrize("noise", [0.02, 1.0])
+def test_samples_that_are_lost_at_random_are_refused_with_their_number(count, noise):
+    """The frequency would be wrong by count/3200, and no line of the spectrum shows it."""
+    time, readings = sampled(1600.0, noise=noise)
+    kept = np.ones(len(time), dtype=bool)
+    kept[np.random.default_rng(count).choice(np.arange(500, 2700), count, replace=False)] = False
+    fault = fault_of(text_of(time[: kept.sum()], readings[:, kept]))
+    found = float(re.search(r"about (\d+) samples are lost", fault)[1])
+    assert 0.3 * count <= found <= 3.0 * count
+
+
+def test_a_drive_whose_phase_swings_slowly_is_right():
+    """No samples are lost; the swing lowers the amplitude by more than the noise."""
+    time, _ = sampled(1600.0)
+    swung = time + 0.1 * np.sin(2.0 * np.pi * 1.5 * time / time[-1]) / (2.0 * np.pi * PURE.frequency)
+    along, normal = PURE.plate(swung)
+    readings = turn(np.array([along, normal]), -PURE.mount) + np.array(PURE.offsets)[:, None]
+    readings += 0.02 * np.random.default_rng(1).standard_normal(readings.shape)
+    assert_right(estimates(text_of(time, readings)))
+
+
+@pytest.mark.parametrize("size", [0.002, 0.01, 0.05, 0.2])
+def test_times_whose_errors_repeat_in_every_cycle_make_no_harmonics(size):
+    """Small ones change the residual less than chance: then both even and uneven times count as possible."""
+    for seed in range(4):
+        drive = replace(PURE, noise=1.0)
+        time, readings = drive.record(seed)
+        theta = 2.0 * np.pi * PURE.frequency * time
+        wrong = time - time[0] + size / (2.0 * np.pi * PURE.frequency) * np.cos(theta + seed)
+        assert estimates(text_of(wrong, readings))[2] == []
+
+
+def test_a_harmonic_is_found_where_its_error_of_the_times_is_possible():
+    drive = replace(PURE, harmonics=((2, 0.01, 0.5, 0.01, 1.0),), noise=0.002 * 40.0 * np.sin(0.3), jitter=0.01)
+    assert estimates(drive.text(), mount=drive.mount)[2] == [2]
+
+
 def test_lost_samples_with_the_times_of_the_others_are_right():
     kept = np.arange(len(TIMES)) % 8 != 7
     assert_right(estimates(text_of(TIMES[kept], READINGS[:, kept])))
@@ -143,6 +191,15 @@ def test_times_too_coarse_for_the_rate_are_refused_and_a_rate_replaces_them():
     text = text_of(np.floor(TIMES), READINGS, digits=0)
     assert "state excitation.rate (Hz)" in fault_of(text)
     assert_right(estimates(text, rate=PURE.rate))
+
+
+@pytest.mark.parametrize("limit", [0.7, 0.9, 0.95])
+def test_peaks_that_are_cut_off_before_some_noise_are_refused(limit):
+    """As by a sensor that saturates before its filter."""
+    time, readings = sampled(1730.0)
+    readings[0] = np.minimum(readings[0], limit * readings[0].max())
+    readings += 3e-4 * readings.max() * np.random.default_rng(2).standard_normal(readings.shape)
+    assert "cut-off peaks in the column x" in fault_of(text_of(time, readings))
 
 
 # Factors of x and z, settings, and what the message must say.
@@ -200,6 +257,36 @@ def test_means_that_are_not_gravity_are_refused_with_the_unit_or_factor(factor, 
 )
 def test_units_are_converted(factor, unit):
     assert_right(estimates(text_of(TIMES, factor * READINGS), unit=unit))
+
+
+def test_an_error_of_the_mount_below_the_noise_of_gravity_is_part_of_the_standard_errors():
+    """The mean of the noise may hide 0.8°, so no mount is more exact than that."""
+    outside = 0
+    for seed in range(20):
+        drive = replace(PURE, cycles=60.0, noise=3.0)
+        values, errors, _, _ = estimates(drive.text(seed), mount=PURE.mount - np.radians(0.8))
+        outside += abs(values["angle"] - PURE.angle) > 1.96 * errors["angle"]
+    assert outside <= 1
+
+
+def test_a_wrong_mount_moves_no_harmonic_to_the_other_axis():
+    drive = replace(PURE, harmonics=((3, 0.1, 0.4, 0.0, 0.0),), noise=0.01)
+    text, settings = drive.text(), {"mount": PURE.mount + np.radians(1.0), "measured": "mine.csv"}
+    check(text, {**PURE.settings, **settings})
+    harmonics = measure.make(text, {**PURE.settings, **settings})["harmonics"]
+    assert [
+        order for order, above in zip(harmonics["order"], harmonics["along_above_noise"], strict=True) if above
+    ] == [3]
+    assert not any(harmonics["normal_above_noise"])
+
+
+@pytest.mark.parametrize(("unit", "scale"), [("ms", 1e3), ("µs", 1e6), ("ns", 1e9)])
+def test_times_without_their_unit_are_refused_with_the_one_that_fits(unit, scale):
+    assert f"set excitation.time_unit: {unit} if" in fault_of(text_of(scale * TIMES, READINGS, digits=4))
+
+
+def test_metres_that_are_stated_as_milligravities_are_refused():
+    assert "its values are in m/s²: set excitation.unit: m/s²" in fault_of(text_of(TIMES, READINGS), unit="mg")
 
 
 def test_a_small_error_of_the_mount_is_part_of_the_standard_errors():

@@ -32,10 +32,15 @@ PARAMETERS = {"acceleration": "m/s²", "frequency": "Hz", "angle": "rad", "phase
 SHARES = ("along", "along_phase", "normal", "normal_phase")
 # Frequencies on either side of a harmonic, in units of 1/T. The fit of the frequency takes a part of the first.
 FIRST, MOST_SIDEBANDS = 2, 24
+SLOW = 3  # first of them, at which a wandering phase shows
 BLOCKS = 4096  # at most, into which the recording is summed; a block is short against the period of every sideband
 NORMAL = 1.96  # half width of a 95 % interval in standard errors
-# Chance that some harmonic counts as above the noise, if there are none.
-CHANCE = 0.01
+# Chance that any harmonic counts as above the noise, if there are none: an overlay with a false one would change the
+# model, while a true one that is missed for this reason lies within 1.3 times the limit of a chance of 1 %.
+CHANCE = 1e-4
+# Sidebands on either side whose mean power is the noise of a harmonic: its power must exceed each of these means, as
+# noise may rise towards it. The limit for few sidebands is higher.
+WINDOWS = (3, 6, 12, 24)
 # 95 % quantile of the size of a complex number of pure noise, over 1.96: for shares below the noise, which have a bias.
 BELOW = math.sqrt(-2.0 * math.log(0.05)) / NORMAL
 
@@ -45,6 +50,8 @@ class Noise(NamedTuple):
 
     amplitude: np.ndarray  # complex, real part of the error, axis j, order k, sideband m, shape (2, K, M)
     phase: np.ndarray  # complex, imaginary part of the error (rad), same shape
+    slow: np.ndarray  # the phase again, at the SLOW first frequencies, shape (2, K, SLOW)
+    power: np.ndarray  # mean of both sides of both parts together, from the first sideband on, shape (2, K, 1 + M)
     added: np.ndarray  # variance of an amplitude or a phase from the steps of the converter, shape (2, K)
     degrees: int  # of freedom of each variance
 
@@ -92,13 +99,32 @@ def timing_variance(recording: Recording, fit: Fit) -> np.ndarray:
     return repeated + (0.5 * orders**2 * scatter**2 * np.abs(fit.amplitudes)) ** 2
 
 
-def noise_of(recording: Recording, fit: Fit) -> Noise:
-    """The errors of the harmonics near their frequencies."""
+def relative_difference(fitted: Fit, other: Fit) -> np.ndarray:
+    """Difference of the harmonics of two fits over those of the first, shape (2, K); their phases refer to the
+    fundamental normal to the track."""
+    orders = np.arange(1, fitted.orders + 1)
+    one, two = (each.amplitudes * np.exp(-1j * orders * np.angle(each.amplitudes[1, 0])) for each in (fitted, other))
+    return np.abs(two / one - 1.0)
+
+
+def wander_variance(fit: Fit, phase: np.ndarray) -> np.ndarray:
+    """Relative variance of the amplitude of each order if the phase of the drive wanders slowly, shape (K,).
+
+    A phase with the variance σ² against a constant frequency reduces the amplitude of order k by k² σ²/2. `phase` has
+    the errors of the phase by axis, order and sideband.
+    """
+    weights = np.abs(fit.amplitudes[:, 0]) ** 2
+    wander = 2.0 * (np.abs(weights @ phase[:, 0]) ** 2).sum() / weights.sum() ** 2
+    return (0.5 * np.arange(1, fit.orders + 1) ** 2 * wander) ** 2
+
+
+def noise_of(recording: Recording, fit: Fit, others: tuple[Fit, ...] = ()) -> Noise:
+    """The errors of the harmonics near their frequencies; `others` are fits with other times of the samples."""
     time, count = recording.time - fit.middle, len(recording.time)
     duration = duration_of(recording.time)
     cycles = fit.frequency * duration
     last = min(FIRST + MOST_SIDEBANDS - 1, math.ceil(cycles) - 1)
-    shifts = np.arange(FIRST, last + 1)
+    shifts = np.arange(1, last + 1)
     begins = np.linspace(0, count, min(count, BLOCKS), endpoint=False).astype(np.int64)
     sizes = np.diff([*begins, count])
     middles = np.add.reduceat(time, begins) / sizes
@@ -116,7 +142,14 @@ def noise_of(recording: Recording, fit: Fit) -> Noise:
     size = fit.amplitudes[:, :, None]
     above, below = above / size, below / size
     added = (step_variance(recording, fit)[:, None] + timing_variance(recording, fit)) / np.abs(fit.amplitudes) ** 2
-    return Noise(0.5 * (above + np.conj(below)), -0.5j * (above - np.conj(below)), added, 2 * len(shifts))
+    for other in others:
+        added += relative_difference(fit, other) ** 2
+    both = 0.5 * (above + np.conj(below)), -0.5j * (above - np.conj(below))
+    added += wander_variance(fit, both[1])
+    amplitude, phase = (part[..., FIRST - 1 :] for part in both)
+    return Noise(
+        amplitude, phase, both[1][..., :SLOW], sum(np.abs(part) ** 2 for part in both), added, 2 * amplitude.shape[-1]
+    )
 
 
 def variance(error: np.ndarray) -> np.ndarray:
@@ -157,7 +190,8 @@ def parameters(recording: Recording, fit: Fit, noise: Noise, doubt: Doubt = NONE
     weights = orders * np.abs(fit.amplitudes) ** 2
     total = (orders * weights).sum()
     phase = np.einsum("jk,jkm->m", weights, noise.phase) / total
-    spread = variance(phase) + (weights**2 * noise.added).sum() / total**2
+    slow = np.einsum("jk,jkm->m", weights, noise.slow) / total  # a phase that wanders looks like another frequency
+    spread = max(variance(phase), variance(slow)) + (weights**2 * noise.added).sum() / total**2
     errors = {
         "acceleration": acceleration**2
         * (variance(cosine**2 * by_axis[0] + sine**2 * by_axis[1]) + cosine**4 * added[0] + sine**4 * added[1]),
@@ -191,13 +225,19 @@ def harmonics(fit: Fit, noise: Noise, doubt: Doubt = NONE) -> dict[str, np.ndarr
     orders = np.arange(2, fit.orders + 1)
     tests = 2 * len(orders)
     columns: dict[str, np.ndarray] = {"order": orders}
-    values, others = shares_of(fit.amplitudes, orders), shares_of(turn(fit.amplitudes, doubt.mount), orders)
+    turned = turn(fit.amplitudes, doubt.mount)
+    values, others = shares_of(fit.amplitudes, orders), shares_of(turned, orders)
     for axis, name in enumerate(AXES):
         share, phase = values[name], values[f"{name}_phase"]
         own = variance(noise.amplitude[axis]) + noise.added[axis], variance(noise.phase[axis]) + noise.added[axis]
-        # Power over the mean power of noise, two numbers over twice as many as an amplitude or a phase has.
-        ratio = 2.0 / (own[0] + own[1])[1:]
-        above = ratio / 2.0 > f_distribution.isf(CHANCE / max(tests, 1), 2, 2 * noise.degrees)
+        # A wrong mount shows harmonics of one axis in the other.
+        leaked = np.abs(turned[axis] / fit.amplitudes[axis] - 1.0)[1:] ** 2
+        systematic = 2.0 * noise.added[axis, 1:] + leaked
+        above = np.ones(len(orders), dtype=bool)
+        for window in WINDOWS:
+            power = noise.power[axis, 1:, :window]
+            limit = f_distribution.isf(CHANCE / max(tests, 1), 2, 4 * power.shape[-1])
+            above &= limit * (power.mean(axis=-1) + systematic) < 1.0
         relative = noise.student * np.sqrt(own[0][1:] + own[0][0])
         columns[name] = share
         columns[f"{name}_stderr"] = np.hypot(share * relative * np.where(above, 1.0, BELOW), others[name] - share)

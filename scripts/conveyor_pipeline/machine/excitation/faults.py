@@ -18,8 +18,14 @@ from conveyor_pipeline.machine.excitation.harmonics import (
     sampling_rate,
     steadiness,
 )
-from conveyor_pipeline.machine.excitation.modulation import Modulation, alternates, modulation_of, timing_line
-from conveyor_pipeline.machine.excitation.reading import DIRECTIONS, UNITS, Recording, parse
+from conveyor_pipeline.machine.excitation.modulation import (
+    Modulation,
+    alternates,
+    lost_samples,
+    modulation_of,
+    timing_line,
+)
+from conveyor_pipeline.machine.excitation.reading import DIRECTIONS, TIME_UNITS, UNITS, Recording, parse
 from conveyor_pipeline.machine.excitation.sample_times import CHECKED, MOST_EQUAL, MOST_GAPS, resolve
 
 LEAST_CYCLES = 8
@@ -27,7 +33,9 @@ LEAST_PER_CYCLE = 8  # samples; with fewer, harmonics of low orders are aliased
 # Amplitudes (m/s²) of which one unit or the other is wrong: no plate has less to convey with, or survives more.
 LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
 MOST_DISPLACEMENT = 0.1  # m
+LEAST_FREQUENCY = 3.0  # Hz; with half of gravity, a plate would move by 14 mm
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
+DIFFERENT = 2.0  # difference of two frequencies in units of 1/T
 OTHER_FREQUENCY = 0.01  # relative difference from a stated frequency: more than clocks differ, and than a motor slips
 MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
 MOST_RATE_ERROR = 2e-3  # relative standard error of the sampling rate
@@ -35,8 +43,12 @@ MOST_SCATTER = 0.3  # rad, of the phase: times that the samples were not taken a
 OUTLIER = 20.0  # times the 95 % quantile of a column, from which a sample is no vibration
 UNSTEADY = 0.15  # relative standard deviation of the amplitude, above which its mean is no parameter of the drive
 NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does not vibrate
+MOST_WANDER = 0.3  # rad; the amplitude would be wrong by 4 %
 # A clipped signal stays at its extreme value far longer than near it.
 NEAR, SPIKE, PLATEAU, FLAT, LEAST_FLAT = 0.002, 4.0, 3.0, 0.01, 20
+# Strips at the extreme, in halves of the span of the values; ratio of the first to the second; and how many times the
+# largest gap between phases, and the largest step, the first must be.
+HALVINGS, STEEP, GAPS = (5, 13), 8.0, 3.0
 
 
 def first_clipped(values: np.ndarray, quantum: float) -> int | None:
@@ -55,6 +67,24 @@ def clipped(readings: np.ndarray, quantum: float) -> int | None:
     """The first sample at which readings are cut off, above or below; None if they are not."""
     samples = [first_clipped(values, quantum) for values in (readings, -readings)]
     return min((sample for sample in samples if sample is not None), default=None)
+
+
+def flattened(values: np.ndarray, quantum: float, gap: float) -> bool:
+    """Whether values are cut off with some noise behind it, as by a sensor that saturates before its filter.
+
+    Near the extreme of a smooth wave, as many values lie within a distance w as 0.41 (of a very flat wave: 0.19) times
+    as many within the next w. Values that are cut off leave the second strip nearly empty. So do samples at few phases:
+    the w of a cosine must last longer than the largest `gap` between phases (cycles). A step of the converter,
+    `quantum`, must be smaller than w, too.
+    """
+    span, least = np.ptp(values), max(LEAST_FLAT, FLAT * len(values))
+    shares = 0.5 ** np.arange(*HALVINGS)
+    for sizes in (values.max() - values, values - values.min()):
+        for width in span * shares[(np.sqrt(shares) / math.pi > GAPS * gap) & (span * shares > GAPS * quantum)]:
+            near, next_to = np.count_nonzero(sizes <= width), np.count_nonzero((sizes > width) & (sizes <= 2.0 * width))
+            if near > max(least, STEEP * next_to):
+                return True
+    return False
 
 
 class Signal(NamedTuple):
@@ -166,6 +196,12 @@ def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             "one file do, or one whose samples are lost regularly; keep the lines of one sensor, and record without "
             "losses",
         )
+    elif lost := lost_samples(time[: signal.fitted.residual.shape[1]], signal.fitted, found):
+        yield (
+            None,
+            f"has a phase that jumps, as where about {max(lost, 1.0):.0f} samples are lost and the times do not show "
+            "it, so that its frequency is wrong; record without losses, or with the time of each sample",
+        )
     elif found.scatter > MOST_SCATTER:
         scatter = found.scatter / (2.0 * math.pi * signal.fitted.frequency)
         yield (
@@ -173,6 +209,44 @@ def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             f"has times that differ by {scatter:.2g} s (standard deviation) from those of the samples; record the "
             "time of each sample, or, if the sensor measures evenly, state excitation.rate (Hz)",
         )
+
+
+def saturation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """Peaks that are cut off, behind which there is noise."""
+    recording, fitted = signal.recording, signal.fitted
+    if next(sampling_faults(signal), None) is not None:
+        return
+    phases = np.sort(np.mod((recording.time - fitted.middle) * fitted.frequency, 1.0))
+    gap = max(float(np.diff(phases).max()), 1.0 + phases[0] - phases[-1])
+    for key, readings in zip(recording.columns, recording.readings, strict=True):
+        if flattened(readings, recording.quanta.max(), gap):
+            yield (
+                None,
+                f"has cut-off peaks in the column {recording.names[key].lstrip('-')}; record again with a larger range "
+                "of the sensor",
+            )
+            return
+
+
+def ambiguity_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """Other times of the samples that are as likely, and with which the drive has another frequency.
+
+    Buffers that are stamped faster than they were measured look like a faster drive, sampled in bursts.
+    """
+    frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
+    if stated and abs(frequency / stated - 1.0) < OTHER_FREQUENCY:
+        return
+    for other in signal.recording.others:
+        time = other.time[:CHECKED]
+        found = first_fit(time, other.acceleration[:, :CHECKED])[0].frequency
+        if abs(found - frequency) > DIFFERENT / duration_of(time):
+            yield (
+                None,
+                f"fits a drive of {frequency:.5g} Hz and, with other times of its samples, one of {found:.5g} Hz; "
+                f"state model.frequency, and excitation.rate: {(len(time) - 1) / np.ptp(time):.5g} if the sensor "
+                "measures evenly",
+            )
+            return
 
 
 def steadiness_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
@@ -184,6 +258,13 @@ def steadiness_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             None,
             f"is not steady: its amplitude at {frequency:.4g} Hz varies by {100.0 * deviation:.2g} % (standard "
             "deviation); keep a piece in which the drive runs steadily, and record one drive alone",
+        )
+    elif (wander := steady["wander"]) > MOST_WANDER:
+        yield (
+            None,
+            f"has a phase that wanders by {wander:.2g} rad (standard deviation) against {frequency:.4g} Hz: samples "
+            "are lost, or the drive does not run steadily; record without losses, or with the time of each sample, and "
+            "keep a piece in which the drive runs steadily",
         )
     elif other:
         yield (
@@ -201,11 +282,14 @@ def frequency_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     displacement = acceleration / (2.0 * math.pi * frequency) ** 2
     has_unit = size_fault(gravity_of(signal.fitted, 0.0), signal.recording.unit) is None
     if has_unit and displacement > MOST_DISPLACEMENT:
+        # The unit in which the frequency would be one of a conveyor.
+        scales = {name: scale / TIME_UNITS[signal.recording.time_unit] for name, scale in TIME_UNITS.items()}
+        fits = [name for name, scale in scales.items() if LEAST_FREQUENCY < frequency / scale < MOST_FREQUENCY]
+        remedy = f"set excitation.time_unit: {fits[0]} if that is the unit of the times, or " if fits else ""
         yield (
             None,
             f"vibrates with {acceleration:.4g} m/s² at {frequency:.3g} Hz; the plate would move by {displacement:.3g} "
-            "m: set excitation.time_unit: ms if the times are milliseconds, or sample faster if the drive is faster "
-            "(aliasing)",
+            f"m: {remedy}sample faster if the drive is faster (aliasing)",
         )
     elif frequency > MOST_FREQUENCY:
         yield (
@@ -266,7 +350,14 @@ def share_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 
 # Where a group finds faults, the next ones would only find their consequences.
 OF_TIMES = ((time_faults,), (gap_faults,))
-OF_SIGNAL = ((count_faults,), (frequency_faults, sampling_faults, unit_faults), (steadiness_faults,), (share_faults,))
+OF_SIGNAL = (
+    (count_faults,),
+    (saturation_faults,),
+    (frequency_faults, sampling_faults, unit_faults),
+    (ambiguity_faults,),
+    (steadiness_faults,),
+    (share_faults,),
+)
 
 
 def signal_of(recording: Recording, settings: Mapping[str, Any]) -> Signal:

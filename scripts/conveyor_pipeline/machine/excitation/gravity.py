@@ -25,6 +25,7 @@ ABSENT = 0.06  # of gravity: a mean below this is an offset of a sensor that rem
 SIZE = 0.1  # relative deviation within which the mean counts as gravity; sensors have errors of some percent
 NEAR = 0.05  # relative deviation within which another unit explains the mean
 MOST_LEAN = 0.04  # rad, within which the direction of gravity fits; an offset of 0.04 g turns it by this much
+LEAST_DEGREES = 0.5  # a smaller number is no mount in degrees, because nobody sees such a small angle
 SURE = 3.0  # standard errors from which a deviation of the size is one; of the direction, one is enough
 # What else the unit of a file may be, in m/s².
 OTHER_UNITS = {
@@ -58,16 +59,19 @@ def gravity_of(fitted: Fit, inclination: float) -> Gravity:
     if size < ABSENT:
         return Gravity(False, size, lean, 0.0, 0.0)
     off = size - 1.0
-    return Gravity(True, size, lean, off if abs(off) > SURE * chance else 0.0, lean if abs(lean) > chance else 0.0)
+    return Gravity(True, size, lean, off if abs(off) > SURE * chance else 0.0, math.hypot(lean, chance))
 
 
 def size_fault(gravity: Gravity, unit: str) -> str | None:
     """What is wrong with the unit if the mean is not gravity."""
-    if not gravity.present or abs(gravity.size - 1.0) < SIZE:
+    if abs(gravity.size - 1.0) < SIZE:
         return None
     mean = gravity.size * STANDARD_GRAVITY / UNITS[unit]
     deviations = {name: abs(mean * scale / STANDARD_GRAVITY - 1.0) for name, scale in OTHER_UNITS.items()}
     nearest = min(deviations, key=lambda name: deviations[name])
+    # A small mean is an offset, unless size and direction are those of gravity in a unit that makes them larger.
+    if not gravity.present and not (nearest in UNITS and deviations[nearest] < NEAR and abs(gravity.lean) < MOST_LEAN):
+        return None
     shown = f"has a mean of {mean:.4g} {unit}, {gravity.size:.3g} times gravity"
     factor = f"one g is {mean:.4g} in the file, so values times {STANDARD_GRAVITY / mean:.4g} would be m/s²"
     if deviations[nearest] < NEAR and nearest in UNITS:
@@ -75,7 +79,7 @@ def size_fault(gravity: Gravity, unit: str) -> str | None:
     if deviations[nearest] < NEAR:
         return f"{shown}; its values seem to be {nearest}: {factor}; export them in one of {', '.join(UNITS)}"
     remedy = f"export the values in one of {', '.join(UNITS)}, and state it as excitation.unit"
-    return f"{shown}, which no unit explains; {factor}. {remedy}, or check whether the sensor is tilted sideways"
+    return f"{shown}, which no unit explains; {factor}; {remedy}, or check whether the sensor is tilted sideways"
 
 
 def fitting_columns(recording: Recording, means: np.ndarray, mount: float, inclination: float) -> list[str]:
@@ -106,7 +110,7 @@ def direction_fault(recording: Recording, gravity: Gravity, settings: Mapping[st
         f"shows gravity {math.degrees(gravity.lean):.3g}° from where excitation.mount = {mount:g} and "
         f"model.inclination = {inclination:g} (rad) put it"
     )
-    if abs(wrap(math.radians(mount) - fits)) < MOST_LEAN < abs(mount):
+    if abs(wrap(math.radians(mount) - fits)) < MOST_LEAN and abs(mount) >= LEAST_DEGREES:
         return f"{shown}; the mount looks like degrees: set excitation.mount: {math.radians(mount):.4g}"
     entries = fitting_columns(recording, means, mount, inclination)
     if entries and abs(gravity.lean) > 0.5 * math.pi:

@@ -151,7 +151,7 @@ def fit(time: np.ndarray, signals: np.ndarray, guess: float, orders: int) -> Fit
 
 
 def steadiness(time: np.ndarray, fitted: Fit) -> dict[str, float]:
-    """How the amplitude of the fundamental changes from piece to piece of the recording."""
+    """How amplitude and phase of the fundamental change from piece to piece of the recording."""
     cycles = fitted.frequency * duration_of(time)
     pieces = max(2, min(MOST_PIECES, math.floor(cycles / PIECE)))
     centred = time - fitted.middle
@@ -160,12 +160,14 @@ def steadiness(time: np.ndarray, fitted: Fit) -> dict[str, float]:
     waves = np.exp(-2j * math.pi * fitted.frequency * centred)
     weights = np.abs(fitted.amplitudes[:, 0]) ** 2
     errors = 2.0 * np.add.reduceat(fitted.residual * waves, begins, axis=1) / sizes / fitted.amplitudes[:, :1]
-    amplitude = weights @ errors.real / weights.sum()
+    whole = weights @ errors / weights.sum()
+    amplitude = whole.real
     noise = (fitted.residual**2).mean(axis=1) * 2.0 / sizes.mean()
     middles = np.add.reduceat(centred, begins) / sizes
     return {
         "pieces": pieces,
         "deviation": float(amplitude.std(ddof=1)),
+        "wander": float(np.angle(1.0 + whole).std(ddof=1)),
         "deviation_of_noise": math.sqrt(float(weights @ noise)) / float(weights.sum()),
         "drift": float(np.polyfit(middles, amplitude, 1)[0] * (centred[-1] - centred[0])),
     }

@@ -69,6 +69,7 @@ TABLES = {
         fields.count("samples", "samples of the recording"),
         fields.count("repeated", "lines left out because they repeat the readings of the line before"),
         fields.text("sampling", "times: stamped (as in the file), rate (as stated), rounded or even (evenly spaced)"),
+        fields.flag("other_times", "whether other times of the samples fit about as well; they are part of the errors"),
         fields.number(
             "rate_error", "1", "relative standard error of the sampling rate from the resolution of the times"
         ),
@@ -86,6 +87,7 @@ TABLES = {
         fields.number("other_amplitude", "m/s²", "its amplitude"),
         fields.count("pieces", "pieces of the recording, each with its own amplitude"),
         fields.number("deviation", "1", "relative standard deviation of the amplitude over the pieces"),
+        fields.number("wander", "rad", "standard deviation of the phase over the pieces, against a constant frequency"),
         fields.number("deviation_of_noise", "1", "this deviation if only the noise caused it"),
         fields.number("drift", "1", "relative change of the amplitude from begin to end, by a straight line"),
     ),
@@ -164,8 +166,11 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
     recording = resolve(parse(table, settings))
     rate = sampling_rate(recording.time)
     first, other = first_fit(recording.time, recording.acceleration)
-    fitted = fit(recording.time, recording.acceleration, first.frequency, orders_of(rate, first.frequency))
-    noise, gravity = noise_of(recording, fitted), gravity_of(fitted, settings["inclination"])
+    orders = orders_of(rate, first.frequency)
+    fitted, *others = (
+        fit(one.time, one.acceleration, first.frequency, orders) for one in (recording, *recording.others)
+    )
+    noise, gravity = noise_of(recording, fitted, tuple(others)), gravity_of(fitted, settings["inclination"])
     doubt = Doubt(gravity.mount_error, gravity.size_error, recording.rate_error)
     shares = harmonics(fitted, noise, doubt)
     above = np.array([shares[f"{axis}_above_noise"] for axis in AXES])
@@ -177,6 +182,7 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
         "samples": len(recording.time),
         "repeated": recording.repeated,
         "sampling": recording.sampling,
+        "other_times": bool(recording.others),
         "rate_error": recording.rate_error,
         "gravity_found": gravity.present,
         "gravity": gravity.size,

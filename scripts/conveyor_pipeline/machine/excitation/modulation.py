@@ -23,6 +23,10 @@ SLOW = 4.0  # frequencies that are slow changes of the drive
 LOST = 0.12
 LEAST_PHASE = 0.005  # rad, of a slower swing than a quarter of the drive's frequency: a motor may hunt
 LEAST_GAIN, ALTERNATING = 0.003, 5.0
+# Modulation frequencies, in units of the drive's, at which phases that jump have power; it is compared with the noise
+# at higher frequencies and with the power of the amplitude.
+JUMPS, ABOVE_JUMPS = (0.1, 0.5), 1.5
+LEAST_LINES, MANY_LINES, LEAST_LOST = 8, 10, 0.3
 SCATTERED = 1.5  # ratio of the powers of both parts from which times scatter
 
 
@@ -87,3 +91,25 @@ def alternates(found: Modulation) -> float | None:
     gain, phase = np.abs(found.alternating).T
     counts = (gain > np.maximum(LEAST_GAIN, 8.0 * found.alternating_noise)) & (gain > ALTERNATING * phase)
     return float(gain.max()) if counts.all() else None
+
+
+def lost_samples(time: np.ndarray, fitted: Fit, found: Modulation) -> float | None:
+    """About how many samples are lost between times that do not show it, or None.
+
+    Each loss turns the phase by 2π d, with d the drive's frequency in cycles per sample. If the share p of the samples
+    is lost at random, the phase has the noise 2 p d²/ν² at the modulation frequency ν (cycles per sample), and the
+    amplitude has none.
+    """
+    count, drive = 2 * (len(time) // 2), fitted.frequency / sampling_rate(time)
+    lowest, highest = max(JUMPS[0] * drive, SLOW / count), JUMPS[1] * drive
+    band = (found.frequency > lowest) & (found.frequency < highest)
+    lines, noise = np.count_nonzero(band), found.frequency > ABOVE_JUMPS * drive
+    if lines < LEAST_LINES:
+        return None
+    power = {name: np.median(values[band] ** 2) for name, values in (("phase", found.phase), ("gain", found.gain))}
+    floor = np.median(found.phase[noise] ** 2)
+    if power["phase"] < ONE_SIDED * (1.0 + MANY_LINES / lines) * max(power["gain"], floor):
+        return None
+    # The square of an amplitude with a Hann window is 3/N times the power per frequency.
+    share = np.median(found.frequency[band] ** 2 * (found.phase[band] ** 2 - floor)) * count / (6.0 * drive**2)
+    return float(share * count) if share * count > LEAST_LOST else None

@@ -47,10 +47,12 @@ class Recording(NamedTuple):
     lines: np.ndarray  # of the file, shape (n,)
     names: dict[str, str]  # of the columns in the file, by `time`, `x`, …, with a minus for a reversed axis
     unit: str  # of the readings in the file, one of UNITS
+    time_unit: str  # of the times in the file, one of TIME_UNITS
     sampling: str = "stamped"  # how the times follow from the file; see sample_times.py
     repeated: int = 0  # lines that repeat the readings of the line before, and that are left out
     rate_error: float = 0.0  # relative standard error of the sampling rate
     resolution: float = 0.0  # s, to which uneven times are rounded
+    others: tuple["Recording", ...] = ()  # the same with other times that its signal fits about as well
 
 
 def is_known(header: str) -> bool:
@@ -183,6 +185,7 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
     if pair == AXES and mount != 0.0:
         remedy = f"name the columns by {columns_entry(rename(names))}, or leave mount out"
         faults.append(f"has columns along and normal, but excitation.mount = {mount} turns x and z only; {remedy}")
+    time_unit = "s"
     if rate is None:
         written = re.search(r"[ _](ms|us|µs|ns)$", names["time"], re.IGNORECASE)
         header = table.units[places["time"]] or (written[1].lower() if written else "")
@@ -211,7 +214,7 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
     measured = UNITS[unit] * np.array(readings)
     quanta = np.array([quantum(one) for one in measured])
     return Recording(
-        *(time, turn(measured, mount), pair, measured, quanta, lines, names, unit),
+        *(time, turn(measured, mount), pair, measured, quanta, lines, names, unit, time_unit),
         sampling="stamped" if rate is None else "rate",
     )
 

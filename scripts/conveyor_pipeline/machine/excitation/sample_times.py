@@ -20,6 +20,7 @@ STAMPED, ROUNDED, EVEN = "stamped", "rounded", "even"  # beside "rate", as state
 LEAST_REPEATED = 3  # lines that repeat the one before, from which it may be no chance
 WORSE = 1.3  # times the smallest residual variance, from which an interpretation is wrong
 BETTER = 0.98  # times the power beside the fundamental of the times as stamped, below which others are better
+LIKELY = 2.0  # times the power beside the fundamental of the chosen times, up to which others may be right, too
 FINE = 0.25  # of the mean interval: rounding by less is no sign of lost samples
 LEEWAY = 1.5  # of deviations from a straight line over the resolution, up to which times are rounded
 CLUSTER = 0.2  # width of a cluster of intervals, in units of the distance between two
@@ -138,7 +139,11 @@ def power_beside_fundamental(fitted: Fit) -> float:
 
 
 def resolve(recording: Recording) -> Recording:
-    """The recording with the times that its signal fits best."""
+    """The recording with the times that its signal fits best.
+
+    Errors of the times that repeat in every cycle make harmonics and hardly change the residual, so where other times
+    are possible, `others` has them.
+    """
     found = [one for one in interpretations(recording) if is_usable(one)] or [recording]
     if len(found) == 1:
         return found[0]
@@ -153,4 +158,8 @@ def resolve(recording: Recording) -> Recording:
         if possible[place] and is_rounded and resolution_of(recording.time) < FINE * interval:
             return one
     best = int(np.argmin(np.where(possible, powers, np.inf)))
-    return found[0] if possible[0] and powers[best] > BETTER * powers[0] else found[best]
+    best = 0 if possible[0] and powers[best] > BETTER * powers[0] else best
+    if found[best].sampling == ROUNDED:
+        return found[best]
+    likely = possible & (powers <= LIKELY * powers[best])
+    return found[best]._replace(others=tuple(one for place, one in enumerate(found) if likely[place] and place != best))
