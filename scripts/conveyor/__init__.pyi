@@ -54,7 +54,12 @@ from .analysis.map_states import initial_states as initial_states, start_at as s
 
 # Attractors and their basins
 from .analysis.attractors.labels import STATES as STATES, classify as classify
-from .interface import Basin as Basin, basin as basin
+from .analysis.attractors.identity import Attractor as Attractor, Attractors as Attractors
+from .interface import Basin as Basin, attractors as attractors, basin as basin
+from .analysis.basins.uncertainty import (
+    basin_entropy as basin_entropy,
+    uncertainty_exponent as uncertainty_exponent,
+)
 
 # Periodic orbits and bifurcations
 from .analysis.bifurcations.periodic_orbits import Orbit as Orbit, periodic_orbit as periodic_orbit
@@ -69,6 +74,7 @@ from .analysis.bifurcations.doubling_cascade import (
     doubling_cascade as doubling_cascade,
     doubling_ratios as doubling_ratios,
 )
+from .analysis.bifurcations.bifurcation_curves import continue_bifurcation as continue_bifurcation
 from .analysis.bifurcations.bifurcation_diagram import bifurcation_diagram as bifurcation_diagram
 
 # Chaos and dimensions

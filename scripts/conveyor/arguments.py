@@ -112,9 +112,20 @@ def check_time(name: str, value: object) -> float:
     return check_number(name, value, 0.0, LONGEST, "s", above=True)
 
 
-def check_tolerance(tolerance: object) -> float:
+def check_tolerance(tolerance: object, name: str = "tolerance") -> float:
     """`tolerance`, a relative error per Taylor step, as a float; ValueError outside [1e-14, 1e-2]."""
-    return check_number("tolerance", tolerance, 1e-14, 1e-2)
+    return check_number(name, tolerance, 1e-14, 1e-2)
+
+
+def check_limits(name: str, limits: object, parameter: str, value: float) -> tuple[float, float]:
+    """The lowest and highest value of a parameter, on either side of a `value`; ValueError names the wrong one."""
+    if not isinstance(limits, (tuple, list, np.ndarray)) or np.shape(limits) != (2,):
+        raise ValueError(f"{name} = {limits!r} must be the lowest and the highest {parameter}")
+    (low, high), unit = RANGES[parameter], UNITS[parameter]
+    return (
+        check_number(f"{name}[0]", limits[0], low, value, unit),
+        check_number(f"{name}[1]", limits[1], value, high, unit),
+    )
 
 
 def check_threads(threads: object) -> int:

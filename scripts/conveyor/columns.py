@@ -1,10 +1,16 @@
 """The results of many runs: one array for each quantity, by its name."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-UNITS = {
+from . import parameters
+
+if TYPE_CHECKING:
+    import pandas
+
+UNITS = parameters.UNITS | {
     **{"mean_velocity": "m/s", "z_end": "m", "vz_end": "m/s", "x_end": "m", "vx_end": "m/s", "max_gap": "m"},
     **{"impacts": "1", "contact_fraction": "1", "impact_speed": "m/s", "peak_force": "N"},
     **{"x": "m", "vx": "m/s", "z": "m", "vz": "m/s", "contact_force": "N", "friction_force": "N"},
@@ -12,7 +18,8 @@ UNITS = {
     **{"period": "1", "longest_flight": "1", "cycles": "1", "delta": "m", "v": "m/s"},
     **{"lambda_1": "1/s", "lambda_2": "1/s", "stderr": "1/s"},
     **{"airtime": "1", "largest_tilt": "rad"},
-    **{"state": "", "status": ""},
+    **{"attractor": "1", "share": "1", "multiplier": "1", "normal_form": "1", "strobe": "1"},
+    **dict.fromkeys(("state", "status", "kind", "confirmed", "stable"), ""),
 }
 
 
@@ -45,6 +52,9 @@ class Columns(Mapping[str, np.ndarray]):
             raise AttributeError(f"there is no column {name!r}")
         return self._arrays[name]
 
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self]
+
     def __repr__(self) -> str:
         return f"Columns({', '.join(f'{name} {array.shape}' for name, array in self.items())})"
 
@@ -62,13 +72,33 @@ class Columns(Mapping[str, np.ndarray]):
         """The unit of each column; "1" for numbers without dimension, "" for words."""
         return {name: UNITS[name] for name in self}
 
-    def as_dict(self) -> dict[str, np.ndarray]:
-        """One-dimensional arrays that share the memory of the columns.
+    def to_frame(self, parameters: np.ndarray | None = None) -> "pandas.DataFrame":
+        """A data frame with one row for each point, which can be written to a Parquet file.
 
-        pandas.DataFrame(columns.as_dict(), copy=False) copies nothing.
+        parameters : the table that the columns belong to; its columns come first, and those of the result replace them
 
-        ValueError if the columns have several shapes.
+        ValueError if the columns have several shapes, or another one than the table.
+
+        Examples
+        --------
+        >>> parameters = parameter_table(Conveyor(), z0=[0.0, 3e-4])
+        >>> frame = classify(parameters).to_frame(parameters)
+        >>> frame[["z0", "state", "period"]].values.tolist()
+        [[0.0, 'first', 1], [0.0003, 'second', 1]]
         """
-        if len({array.shape for array in self.values()}) > 1:
-            raise ValueError(f"{self!r} have no common shape")
-        return {name: array.reshape(-1) for name, array in self.items()}
+        try:
+            import pandas
+        except ModuleNotFoundError as error:
+            raise ModuleNotFoundError(
+                "to_frame needs pandas; install it by pip install pandas", name="pandas"
+            ) from error
+        columns = dict(self)
+        if parameters is not None:
+            if getattr(parameters, "dtype", np.dtype(float)).names is None:
+                raise TypeError(f"parameters must be a table from parameter_table, got {type(parameters).__name__}")
+            single = (name for name in parameters.dtype.names if parameters.dtype[name].shape == ())
+            columns = {name: parameters[name] for name in single} | columns
+        if len({array.shape for array in columns.values()}) > 1:
+            shapes = f" and parameters {parameters.shape}" if parameters is not None else ""
+            raise ValueError(f"{self!r}{shapes} have no common shape")
+        return pandas.DataFrame({name: np.reshape(array, -1) for name, array in columns.items()})

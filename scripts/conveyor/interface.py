@@ -1,4 +1,4 @@
-"""The basins of a conveyor."""
+"""The attractors of one conveyor, and their basins."""
 
 from typing import NamedTuple
 
@@ -6,11 +6,106 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import arguments
-from .analysis.attractors import labels, search
-from .arguments import MOST_CYCLES
-from .packing import parameter_table
-from .parameters import DEFAULT_TOLERANCE
-from .solver.model import Conveyor
+from .analysis import stroboscopic_map
+from .analysis.attractors import identity, labels, sampling, search
+from .analysis.attractors.identity import Attractor, Attractors
+from .ensemble import sweep
+from .packing import as_rows, as_table, check_row, parameter_table
+from .parameters import DEFAULT_TOLERANCE, LAST
+from .solver.model import FREQUENCY, PSI0, Conveyor
+from .solver.pieces import BEGIN_OF_CYCLE
+
+SAMPLES = 256
+CYCLES = 2048  # excitation cycles over which a mean velocity is taken, whole periods up to MAX_PERIOD
+
+
+def attractors(
+    conveyor: Conveyor | np.ndarray,
+    *,
+    samples: int = SAMPLES,
+    cycles: int = labels.CYCLES,
+    tolerance: float = DEFAULT_TOLERANCE,
+    threads: int = 1,
+    progress: str | None = None,
+) -> Attractors:
+    """All attractors that sampled initial conditions of a conveyor lead to.
+
+    An attractor with a basin of less than about 1/`samples` of the samples may be missing. Where chaos is a long
+    transient, the label of a single initial condition depends on the tolerance; the shares depend little on it.
+
+    Parameters
+    ----------
+    conveyor : a Conveyor, or a row of a table
+    samples : number of initial conditions, as in sampling.sampled_initial_conditions: in the air, no faster and no
+        higher than a part that jumps over one or two cycles
+    cycles, tolerance, threads, progress : as in `classify`
+
+    Returns
+    -------
+    Attractors: `found`, each with its state of motion, period, orbit (with multipliers), states once per cycle, mean
+    feeding velocity (m/s) and share of the samples; and `columns` of them
+
+    Examples
+    --------
+    >>> attractors(Conveyor(acceleration=40.0), samples=64)
+    Attractor(second, period 1, share 0.953, 0.06515 m/s)
+    Attractor(first, period 1, share 0.0469, 0.03262 m/s)
+    """
+    row = check_row("conveyor", conveyor)
+    samples = arguments.check_count("samples", samples, 1, arguments.MOST_VALUES)
+    options = {"cycles": cycles, "tolerance": tolerance, "threads": threads, "progress": progress}
+    table = search.find_attractors(as_table(row[None]), **options)
+    conveyor = table.orbits.conveyors[0] if len(table.orbits.conveyors) else labels.distinct_rows(row[None])[0][0]
+    at_top = np.array(conveyor)
+    at_top[PSI0] = BEGIN_OF_CYCLE
+    starts = sampling.sampled_initial_conditions(row, samples)
+    starts = stroboscopic_map.pack_states(np.tile(at_top, (samples, 1)), starts, labels.check_tolerance(tolerance))
+    found = [
+        identity.orbit_attractor(conveyor, labels.regular_state(flight * row[FREQUENCY]), int(period), state)
+        for state, period, flight in zip(
+            (identity.state_of(row, centre) for centre in table.orbits.centres),
+            table.orbits.periods,
+            table.orbits.flights,
+            strict=True,
+        )
+    ]
+    found += [Attractor("chaos", 0, None, np.full((1, 2), np.nan)) for _ in table.chaotic.low]
+    known = Attractors(found, conveyor, table)
+    labelled = labels.classify(as_table(starts), attractors=known, **options)
+    for k in np.flatnonzero(labelled.attractor == identity.UNKNOWN):
+        state, (one,) = np.array([labelled.delta[k], labelled.v[k]]), identity.identify(known, labelled.select([k]))
+        if one == identity.UNKNOWN and labelled.period[k]:
+            found.append(identity.orbit_attractor(conveyor, labelled.state[k], int(labelled.period[k]), state))
+        elif one == identity.UNKNOWN:
+            found.append(Attractor(labelled.state[k], 0, None, state[None]))
+        one = len(found) - 1 if one == identity.UNKNOWN else one
+        labelled.attractor[k] = one
+    return known._replace(found=with_velocities(found, at_top, labelled, tolerance))
+
+
+def with_velocities(
+    found: list[Attractor], row: np.ndarray, labelled: labels.Columns, tolerance: float
+) -> list[Attractor]:
+    """The attractors with shares of the samples, mean velocities, and a state for those that have none."""
+    states = []
+    for k, one in enumerate(found):
+        own = np.flatnonzero(labelled.attractor == k)[:1]
+        state = one.strobes[0]
+        if not one.period and len(own):
+            state = np.array([labelled.delta[own[0]], labelled.v[own[0]]])
+        states.append(state)
+    starts = stroboscopic_map.pack_states(np.tile(row, (len(found), 1)), np.array(states).reshape(-1, 2), tolerance)
+    periods = np.array([max(one.period, 1) for one in found])
+    whole = periods * np.ceil(CYCLES * LAST / periods) / LAST
+    runs = sweep(as_table(starts), duration=whole / row[FREQUENCY], tolerance=tolerance)
+    return [
+        one._replace(
+            strobes=one.strobes if one.period else state[None],
+            mean_velocity=float(velocity),
+            share=float(np.mean(labelled.attractor == k)),
+        )
+        for k, (one, state, velocity) in enumerate(zip(found, states, runs.mean_velocity, strict=True))
+    ]
 
 
 class Basin(NamedTuple):
@@ -20,16 +115,22 @@ class Basin(NamedTuple):
     vz: np.ndarray  # m/s, shape (m,)
     state: np.ndarray  # str, shape (n, m): "first", "second", "chaos" or "undecided"
     period: np.ndarray  # int64, shape (n, m), excitation cycles; 0 for none
+    attractor: np.ndarray  # int64, shape (n, m), number among `attractors`; -1 for one that its samples do not show
+    attractors: Attractors
+
+    def __repr__(self) -> str:
+        return f"Basin({len(self.z)} heights × {len(self.vz)} velocities)\n{self.attractors!r}"
 
 
 def basin(
-    conveyor: Conveyor,
+    conveyor: Conveyor | np.ndarray,
     z: ArrayLike,
     vz: ArrayLike = 0.0,
     *,
     cycles: int = labels.CYCLES,
     tolerance: float = DEFAULT_TOLERANCE,
     threads: int = 1,
+    progress: str | None = None,
 ) -> Basin:
     """The basins of attraction on a grid of initial conditions.
 
@@ -37,14 +138,14 @@ def basin(
 
     Parameters
     ----------
-    conveyor : the conveyor of all initial conditions
+    conveyor : the conveyor of all initial conditions, a Conveyor or a row of a table
     z, vz : initial heights (m), of shape (n,) or a number, and velocities (m/s), of shape (m,) or a number; the grid is
         their product
-    cycles, tolerance, threads : as in `classify`
+    cycles, tolerance, threads, progress : as in `classify`
 
     Returns
     -------
-    Basin, with labels of shape (n, m)
+    Basin, with labels of shape (n, m), and the number of the attractor for each
 
     Examples
     --------
@@ -56,15 +157,16 @@ def basin(
     for name, array in (("z", heights), ("vz", speeds)):
         if array.ndim > 1:
             raise ValueError(f"{name} must be a number or of shape (n,), got the shape {array.shape}")
-    options = {
-        "cycles": arguments.check_count("cycles", cycles, 1, MOST_CYCLES),
-        "tolerance": arguments.check_tolerance(tolerance),
-        "threads": arguments.check_threads(threads),
-    }
+    row = check_row("conveyor", conveyor)
     try:
-        parameters = parameter_table(conveyor, z0=heights[:, None], vz0=speeds)
+        starts = as_rows(parameter_table(Conveyor(), z0=heights[:, None], vz0=speeds))
     except ValueError as error:
         raise ValueError(f"z and vz: {error}") from None
-    attractors = search.find_attractors(parameters[:1, 0], **options)
-    labelled = labels.classify(parameters, attractors=attractors, **options)
-    return Basin(heights.astype(np.float64), speeds.astype(np.float64), labelled.state, labelled.period)
+    parameters = as_table(np.broadcast_to(row, (*starts.shape[:2], len(row))).copy())
+    for name, column in (("z0", heights[:, None]), ("vz0", speeds)):
+        parameters[name] = column
+    options = {"cycles": cycles, "tolerance": tolerance, "threads": threads, "progress": progress}
+    found = attractors(as_table(row[None])[0], **options)
+    labelled = labels.classify(parameters, attractors=found, **options)
+    about = labelled.state, labelled.period, labelled.attractor
+    return Basin(heights.astype(np.float64), speeds.astype(np.float64), *about, found)

@@ -136,12 +136,14 @@ def as_table(rows: np.ndarray) -> np.ndarray:
 
 
 def check_rows(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
-    """The numbers of a table, float64, shape (n, 16 + 5 h), and its shape.
+    """The numbers of a table, or of a Conveyor, float64, shape (n, 16 + 5 h), and its shape.
 
     z0 may be NaN, for a part that starts on the plate; z0 and vz0 may be NaN for a run that continues a failed one.
 
     ValueError for anything but a table, and for a number out of range, with its row and its column.
     """
+    if isinstance(parameters, Conveyor):
+        parameters = pack(parameters, AT_REST)
     rows = check_numbers("parameters", as_rows(parameters))
     waves = rows.shape[-1] - len(PARAMETERS) if rows.ndim > 0 else -1
     if waves < 0 or waves % len(HARMONIC) != 0:
@@ -183,6 +185,12 @@ def check_row(name: str, conveyor: object, start: Start = AT_REST) -> np.ndarray
     if start != AT_REST:
         row[[Z0, VZ0]] = pack(Conveyor(), start)[[Z0, VZ0]]
     return row
+
+
+def one_row(parameters: object) -> np.ndarray:
+    """The numbers of a Conveyor, or of a row of a table; packed numbers are not checked again."""
+    packed = isinstance(parameters, np.ndarray) and parameters.dtype == np.float64 and parameters.ndim == 1
+    return parameters if packed and len(parameters) >= len(PARAMETERS) else check_row("parameters", parameters)
 
 
 def place_of(row: int, shape: tuple[int, ...]) -> str:

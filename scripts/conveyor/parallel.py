@@ -1,27 +1,31 @@
 """Independent points in threads: compiled functions release the GIL, and each point writes only its own rows."""
 
-from collections.abc import Callable, Iterator
+import threading
+import time
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from functools import cache
-from threading import Lock
 
 from .progress import progress_bar
 
+# The first range of a thread is this share of a chunk. Each following one grows by at most GROWTH, and takes about
+# SECONDS, so that Ctrl-C and progress bars do not wait for long.
+FIRST, GROWTH, SECONDS = 1.0 / 512.0, 4.0, 0.5
 # Towards the end ranges get shorter: this share of a thread's part of the rest, but at least this share of a chunk.
 OF_THE_REST, OF_A_CHUNK = 0.5, 0.03
 
 
-def ranges_of(count: int, threads: int, chunk: int) -> Iterator[tuple[int, int]]:
-    """Consecutive ranges that cover range(count), see `for_each_chunk`."""
+def next_length(left: int, threads: int, chunk: int, length: int, seconds: float) -> int:
+    """The length of a thread's next range, of `left` points, after a range of a `length` that took some seconds."""
     least = max(int(OF_A_CHUNK * chunk), 1)
-    begin = 0
-    while begin < count:
-        left = count - begin
-        length = min(max(int(OF_THE_REST * left / threads), least), chunk) if threads > 1 else chunk
-        # A short rest belongs to the last range, because a few points may take as long as many.
-        end = begin + (left if left - length < least and left <= chunk else min(length, left))
-        yield begin, end
-        begin = end
+    if length == 0:
+        wanted = max(int(FIRST * chunk), 1)
+    else:
+        wanted = min(max(int(length * min(GROWTH, SECONDS / max(seconds, 1e-9))), 1), chunk)
+    if threads > 1:
+        wanted = min(wanted, max(int(OF_THE_REST * left / threads), least))
+    # A short rest belongs to the last range, because a few points may take as long as many.
+    return left if left <= wanted or (left - wanted < least and left <= chunk and wanted >= least) else wanted
 
 
 @cache
@@ -43,10 +47,11 @@ def for_each_chunk(
 ) -> None:
     """Call `work(begin, end)` for consecutive ranges that cover range(count), on `threads` threads.
 
-    Ranges have the length `chunk`; with several threads they get shorter towards the end, so that no thread waits long
-    for another one. `work` must write only to its range; then the result depends neither on `threads` nor on `chunk`.
-    It may return the number of its points that have failed. An exception in `work` ends the loop and is raised here.
-    `progress` is the label of a progress bar on stderr with rate, time left and failed points; None shows no bar.
+    Ranges have at most the length `chunk`, and take about half a second; with several threads they get shorter towards
+    the end, so that no thread waits long for another one. `work` must write only to its range; then the result depends
+    neither on `threads` nor on `chunk`. It may return the number of its points that have failed. An exception in `work`
+    ends the loop and is raised here. `progress` is the label of a progress bar on stderr with rate, time left and
+    failed points; None shows no bar.
 
     Examples
     --------
@@ -57,28 +62,35 @@ def for_each_chunk(
     >>> squares.tolist()
     [0.0, 1.0, 4.0, 9.0, 16.0]
     """
-    ranges = list(ranges_of(count, threads, chunk))
-    # Each thread takes its next range itself; a thread that hands out ranges would cost as much as a few points.
-    waiting = iter(ranges)
-    lock, failed = Lock(), 0
+    lock, begun, failed = threading.Lock(), 0, 0
 
     with progress_bar(total=count, label=progress) as shown:
-
+        # Each thread takes its next range itself; a thread that hands out ranges would cost as much as a few points.
         def take() -> None:
-            nonlocal failed
+            nonlocal begun, failed
+            length, seconds = 0, 0.0
             try:
-                for begin, end in waiting:
-                    failed_here = work(begin, end) or 0
+                while True:
+                    with lock:
+                        if begun >= count:
+                            return
+                        length = next_length(count - begun, threads, chunk, length, seconds)
+                        begin = begun
+                        begun += length
+                    started = time.perf_counter()
+                    failed_here = work(begin, begin + length) or 0
+                    seconds = time.perf_counter() - started
                     with lock:
                         failed += failed_here
                         if failed:
                             shown.set_postfix_str(f"{failed} failed", refresh=False)
-                        shown.update(end - begin)
+                        shown.update(length)
             except BaseException:
-                ranges.clear()  # nothing is left for the others
+                begun = count  # nothing is left for the others
                 raise
 
-        futures = [other_threads(threads - 1).submit(take) for _ in range(min(threads, len(ranges)) - 1)]
+        ranges = -(-count // chunk)
+        futures = [other_threads(threads - 1).submit(take) for _ in range(min(threads, ranges) - 1)]
         try:
             # The calling thread works, too, so that its processor time is all of the time if it is the only thread.
             take()
@@ -87,3 +99,22 @@ def for_each_chunk(
             wait(running)
         for future in running:
             future.result()
+
+
+def call_interruptibly(work: Callable[[], None], stop: Callable[[], None]) -> None:
+    """Call `work`; Ctrl-C calls `stop`, after which `work` must end soon.
+
+    Python handles Ctrl-C in the main thread, between its own steps. Compiled work therefore goes to another thread.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        work()
+        return
+    thread = threading.Thread(target=work)
+    thread.start()
+    try:
+        while thread.is_alive():
+            thread.join(0.1)
+    except BaseException:
+        stop()
+        thread.join()
+        raise

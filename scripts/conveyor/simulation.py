@@ -10,10 +10,11 @@ from .arguments import check_array, check_choice, check_flag, check_number, chec
 from .methods import fixed_step
 from .parameters import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST
 from .solver import trajectory
-from .solver.model import Conveyor, Start, pack
+from .solver.model import Conveyor, Start, pack, plate_motion
 from .solver.record import SAMPLES, name_events
 from .solver.status import OK, STATUS
 
+EVENT_STATE = ("x", "vx", "z", "vz", "impact_speed")
 METHODS = ("event", *fixed_step.METHODS)
 MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
 
@@ -58,6 +59,10 @@ class Run:
     repeats: int
     event_count: int
 
+    def __repr__(self) -> str:
+        how = self.method if self.method == "event" else f"{self.method}, step {self.step:g} s"
+        return f"Run({self.duration:g} s, {how}; {self.status}, {self.impacts} impacts)"
+
     def mean_velocity(self, last: float = LAST) -> float:
         """Mean feeding velocity over the last part of the run, (x(T) - x((1 - last) T)) / (last T), m/s (Sect. 3.1)."""
         last = check_number("last", last, 0.0, 1.0, above=True)
@@ -87,15 +92,33 @@ class Run:
 
     @cached_property
     def events(self) -> np.ndarray:
-        """Events in order of time: a structured array with the fields `time` (s) and `kind`, see record."""
+        """Events in order of time, with the state there.
+
+        Returns
+        -------
+        structured array with the fields time (s); kind, one of record.EVENT_KINDS; x, z (m), vx, vz (m/s); and
+        impact_speed, the speed (m/s) with which part and plate approach each other, NaN for all events but impacts
+        """
         parameters = pack(self.conveyor, self.start)
         if self.method != "event":
-            return fixed_step.events(parameters, self.duration, self.step, self.method)
-        times, kinds = np.empty(self.event_count), np.empty(self.event_count, np.int8)
-        options = {"tolerance": self.tolerance, "reuse": self.reuse}
-        options |= {"event_times": times[None], "event_kinds": kinds[None]}
-        trajectory.integrate(parameters[None], np.array([[self.duration]]), **options)
-        return name_events(times, kinds)
+            named = fixed_step.events(parameters, self.duration, self.step, self.method)
+        else:
+            times, kinds = np.empty(self.event_count), np.empty(self.event_count, np.int8)
+            options = {"tolerance": self.tolerance, "reuse": self.reuse}
+            options |= {"event_times": times[None], "event_kinds": kinds[None]}
+            trajectory.integrate(parameters[None], np.array([[self.duration]]), **options)
+            named = name_events(times, kinds)
+        events = np.empty(len(named), [*named.dtype.descr, *((name, np.float64) for name in EVENT_STATE)])
+        for name in named.dtype.names:
+            events[name] = named[name]
+        # An event may lie a rounding error behind the end.
+        times = np.minimum(named["time"], self.duration)
+        states, plates = self.sample(times), plate_motion(self.conveyor, times)
+        for name in EVENT_STATE[:-1]:
+            events[name] = states[name]
+        approach = plates["vz"] - states["vz"]
+        events["impact_speed"] = np.where(named["kind"] == "impact", approach, np.nan)
+        return events
 
 
 def check_run(duration: float, method: str, tolerance: float, step: float) -> tuple[float, float, float]:
@@ -144,8 +167,10 @@ def simulate(
     ('ok', 25)
     >>> run.sample(np.array([0.0, 0.25]))["z"].shape  # m
     (2,)
-    >>> run.events["kind"][0].item()
-    'impact'
+    >>> impacts = run.events[run.events["kind"] == "impact"]
+    >>> phases, speeds = 2.0 * np.pi * (50.0 * impacts["time"] % 1.0), impacts["impact_speed"]  # the impact map
+    >>> len(speeds), round(speeds[-1].item(), 3)  # m/s
+    (25, 0.12)
     """
     check_type("conveyor", conveyor, Conveyor)
     check_type("start", start, Start)

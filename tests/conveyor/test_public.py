@@ -17,7 +17,7 @@ import pandas as pd
 import pytest
 
 import conveyor
-from conveyor import Conveyor, Start, columns, parameter_table, simulation
+from conveyor import Bifurcation, Conveyor, Start, columns, parameter_table, simulation
 from conveyor.analysis.attractors import sampling, search
 from conveyor.analysis.chaos import lyapunov
 from conveyor.parameters import PARAMETERS, RANGES
@@ -56,7 +56,19 @@ FUNCTIONS = {
     "sample_runs": {"parameters": TABLE, "times": [[0.0, 0.01]] * 2, "columns": ["x"], "method": "event"}
     | {"vx0": 0.0}
     | {"tolerance": 1e-8, "step": 1e-5, "reuse": True, "threads": 1, "chunk": 10},
-    "classify": {"parameters": TABLE, "cycles": 10, "exponents": True, "tolerance": 1e-8, "threads": 1},
+    "classify": {"parameters": TABLE, "cycles": 10, "exponents": True, "other_tolerance": 1e-9}
+    | {"tolerance": 1e-8, "threads": 1},
+    "attractors": {"conveyor": Conveyor(), "samples": 4, "cycles": 10, "tolerance": 1e-8, "threads": 1},
+    "continue_bifurcation": {"parameter": "damping", "limits": (0.29, 0.31)},
+    "bifurcation_diagram": {"parameters": TABLE, "transient": 2, "strobes": 2, "tolerance": 1e-8},
+    "initial_states": {"parameters": TABLE, "tolerance": 1e-8},
+    "strobes": {"parameters": TABLE[0], "cycles": 3, "tolerance": 1e-8},
+    "start_at": {"parameters": TABLE, "states": np.zeros((2, 2)), "tolerance": 1e-8},
+    "groups_of": {"parameters": TABLE[0]},
+    "amplitude_of": {"parameters": TABLE[0], "ratio": 1.0},
+    "length_and_speed_units": {"parameters": TABLE[0]},
+    "uncertainty_exponent": {"labels": np.arange(1600).reshape(40, 40) % 7},
+    "basin_entropy": {"labels": np.arange(1600).reshape(40, 40) % 7, "size": 4},
     "find_attractors": {"parameters": TABLE, "cycles": 10, "orbits": True, "tolerance": 1e-8, "threads": 1},
     "lyapunov_spectrum_on_attractors": {"parameters": TABLE, "cycles": 5, "blocks": 2, "tolerance": 1e-8, "threads": 1},
     "lyapunov_spectrum": {"parameters": TABLE, "states": np.zeros((2, 2)), "transient": 10, "cycles": 5, "blocks": 2}
@@ -107,7 +119,9 @@ def function_of(name):
 
 def arguments_of(name, orbit):
     """The arguments of one of FUNCTIONS."""
-    return FUNCTIONS[name] | {"continue_orbit": {"orbit": orbit}}.get(name, {})
+    bifurcation = Bifurcation("grazing", orbit, 0.5, "acceleration")
+    more = {"continue_orbit": {"orbit": orbit}, "continue_bifurcation": {"bifurcation": bifurcation}}
+    return FUNCTIONS[name] | more.get(name, {})
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -208,15 +222,85 @@ def test_arrays_broadcast_and_results_have_their_shape():
     assert conveyor.sweep(parameter_table(Conveyor()), duration=0.1).status.shape == ()
 
 
-def test_results_become_a_frame_without_a_copy():
-    runs = conveyor.sweep(parameter_table(Conveyor(), z0=[[0.0, 1e-4], [2e-4, 3e-4]]), duration=0.1)
-    frame = pd.DataFrame(runs.as_dict(), copy=False)
-    assert list(frame) == list(runs)
+def test_results_become_a_frame_with_their_parameters(tmp_path):
+    parameters = parameter_table(Conveyor(), z0=[[0.0, 1e-4], [2e-4, 3e-4]])
+    runs = conveyor.sweep(parameters, duration=0.1)
+    frame = runs.to_frame(parameters)
     assert frame.z_end.tolist() == runs.z_end.ravel().tolist()
-    assert np.shares_memory(frame.z_end.to_numpy(), runs.z_end)
-    assert set(runs.units) == set(runs)
+    assert frame.z0.tolist() == parameters["z0"].ravel().tolist()
+    frame.to_parquet(tmp_path / "runs.parquet")
+    pd.testing.assert_frame_equal(pd.read_parquet(tmp_path / "runs.parquet"), frame)
+    assert set(runs.units) == set(runs) <= set(dir(runs))
     with pytest.raises(ValueError, match="no common shape"):
-        conveyor.sample_runs(TABLE, np.zeros((2, 3))).as_dict()
+        conveyor.sample_runs(TABLE, np.zeros((2, 3))).to_frame()
+    with pytest.raises(ValueError, match="no common shape"):
+        runs.to_frame(TABLE)
+
+
+def test_events_have_the_state_of_the_run():
+    run = conveyor.simulate(Conveyor(), Start(3e-4), duration=0.5)
+    impacts = run.events[run.events["kind"] == "impact"]
+    assert len(impacts) == run.impacts
+    plate, part = conveyor.plate_motion(Conveyor(), impacts["time"]), run.sample(impacts["time"])
+    assert impacts["z"] == pytest.approx(plate["z"], abs=1e-12)
+    assert (impacts["vz"] == part["vz"]).all()
+    assert impacts["impact_speed"] == pytest.approx(plate["vz"] - part["vz"])
+    last = impacts["time"] > 0.375
+    assert impacts["impact_speed"][last].max() == pytest.approx(run.impact_speed, rel=1e-8)
+    assert np.isnan(run.events["impact_speed"][run.events["kind"] == "separation"]).all()
+
+
+def test_attractors_of_one_conveyor_are_told_apart():
+    """At 50 m/s² and a damping of 0.1, three jumping motions coexist, one of them of 12 cycles."""
+    tame = Conveyor(acceleration=50.0, damping=0.1)
+    found = conveyor.attractors(tame, samples=64, cycles=2000)
+    assert sorted(one.period for one in found.found) == [2, 4, 12]
+    assert sum(one.share for one in found.found) == 1.0
+    for one in found.found:
+        assert one.orbit.stable
+        row = conveyor.start_at(conveyor.replace_parameters(parameter_table(tame), psi0=-np.pi), one.strobes)
+        labels = conveyor.classify(row, attractors=found)
+        assert (labels.period == one.period).all()
+        assert set(labels.attractor) == {found.found.index(one)}
+        runs = conveyor.sweep(row[:1], duration=24.0 * 8 / 50.0)
+        assert runs.mean_velocity[0] == pytest.approx(one.mean_velocity, abs=1e-4)
+    frame = found.columns.to_frame()
+    assert (frame.multiplier < 1.0).all()
+
+
+def test_labels_say_whether_another_tolerance_confirms_them():
+    table = parameter_table(Conveyor(), acceleration=[40.0, 80.0], z0=3e-4)
+    assert conveyor.classify(table, other_tolerance=1e-11).confirmed.tolist() == [True, True]
+    with pytest.raises(ValueError, match="other_tolerance"):
+        conveyor.classify(table, other_tolerance=1.0)
+    other = conveyor.attractors(Conveyor(), samples=8)
+    with pytest.raises(ValueError, match="attractors are those of another conveyor"):
+        conveyor.classify(table, attractors=other)
+
+
+def test_a_curve_in_two_parameters_agrees_with_branches_at_its_ends():
+    begin = conveyor.periodic_orbit(Conveyor(acceleration=50.0), Start(3e-4))
+    (doubling,) = conveyor.continue_orbit(begin, "acceleration", (49.0, 55.0)).bifurcations
+    for parameter, limits in (("damping", (0.25, 0.35)), ("angle", (0.18, 0.25)), ("mass", (6e-4, 8e-4))):
+        curve = conveyor.continue_bifurcation(doubling, parameter, limits)
+        assert curve.status[[0, -1]].tolist() == ["limit", "limit"]
+        assert sorted(curve[parameter][[0, -1]]) == pytest.approx(sorted(limits))
+        high = curve.acceleration[-1]
+        moved = conveyor.replace_parameters(begin.parameters, **{parameter: curve[parameter][-1]})
+        orbit = conveyor.periodic_orbit(conveyor.replace_parameters(moved, acceleration=0.99 * high))
+        (same,) = conveyor.continue_orbit(orbit, "acceleration", (0.98 * high, 1.01 * high)).bifurcations
+        assert same.orbit.acceleration == pytest.approx(high, rel=1e-9)
+    with pytest.raises(ValueError, match=r"limits\[0\] = 0.4 must be a number in"):
+        conveyor.continue_bifurcation(doubling, "damping", (0.4, 0.5))
+
+
+def test_a_conveyor_may_stand_for_its_table():
+    one = Conveyor(acceleration=40.0)
+    assert conveyor.classify(one).state.item() == "first"
+    assert conveyor.sweep(one, duration=0.1).impacts == conveyor.sweep(parameter_table(one), duration=0.1).impacts
+    assert conveyor.lyapunov_spectrum(one, cycles=10, blocks=5).lambda_1.shape == ()
+    assert conveyor.strobes(one, 3).shape == (3, 2)
+    assert conveyor.groups_of(one) == conveyor.groups_of(parameter_table(one))
 
 
 def test_units_of_results_are_those_of_the_tables():

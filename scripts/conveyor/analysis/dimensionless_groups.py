@@ -16,9 +16,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..packing import as_rows, refuse_harmonics
+from ..arguments import check_number
+from ..packing import one_row, refuse_harmonics
 from ..solver import contact_law, model
-from ..solver.model import PARAMETERS, normal_gravity
+from ..solver.model import PARAMETERS, Conveyor, normal_gravity
 
 # A conveyor whose parameters equal its dimensionless groups: g = 1, ω = 1, m = 1, φ = 90°.
 FREQUENCY_OF_ONE = 0.5 / math.pi
@@ -34,16 +35,16 @@ class Groups(NamedTuple):
     tension: int  # code of the treatment of tension, see parameters.TENSION_MODES
 
 
-def groups_of(parameters: np.ndarray) -> Groups:
-    """The groups of one conveyor, a row of a table of parameters.
+def groups_of(parameters: Conveyor | np.ndarray) -> Groups:
+    """The groups of one conveyor, a Conveyor or a row of a table.
 
     Examples
     --------
-    >>> groups = groups_of(parameter_table(Conveyor(acceleration=40.0)))
+    >>> groups = groups_of(Conveyor(acceleration=40.0))
     >>> round(groups.amplitude, 4), round(groups.damping, 4), round(groups.stiffness, 2)
     (0.8478, 1.3642, 72.15)
     """
-    parameters = as_rows(parameters)
+    parameters = one_row(parameters)
     refuse_harmonics(parameters, "a motion that depends on dimensionless groups alone")
     omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
     mass, exponent = parameters[model.MASS], parameters[model.EXPONENT]
@@ -66,27 +67,28 @@ def packed(groups: Groups, psi0: float = 0.0) -> np.ndarray:
     return row
 
 
-def length_and_speed_units(parameters: np.ndarray) -> tuple[float, float]:
-    """The units of length, g/ω² (m), and velocity, g/ω (m/s), of one conveyor.
+def length_and_speed_units(parameters: Conveyor | np.ndarray) -> tuple[float, float]:
+    """The units of length, g/ω² (m), and velocity, g/ω (m/s), of a Conveyor or a row of a table.
 
     Examples
     --------
-    >>> length, speed = length_and_speed_units(parameter_table(Conveyor()))
+    >>> length, speed = length_and_speed_units(Conveyor())
     >>> round(1e6 * length, 1), round(1e3 * speed, 1)  # µm, mm/s
     (99.4, 31.2)
     """
-    parameters = as_rows(parameters)
+    parameters = one_row(parameters)
     omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
     return float(gravity / omega**2), float(gravity / omega)
 
 
-def amplitude_of(parameters: np.ndarray, ratio: float) -> float:
-    """The amplitude â (m/s²) at which a_z/g is `ratio`, for one conveyor.
+def amplitude_of(parameters: Conveyor | np.ndarray, ratio: float) -> float:
+    """The amplitude â (m/s²) at which a_z/g is `ratio`, for a Conveyor or a row of a table.
 
     Examples
     --------
-    >>> round(amplitude_of(parameter_table(Conveyor()), 1.0), 2)  # the part can leave the plate above it
+    >>> round(amplitude_of(Conveyor(), 1.0), 2)  # the part can leave the plate above it
     47.18
     """
-    parameters = as_rows(parameters)
+    parameters = one_row(parameters)
+    ratio = check_number("ratio", ratio, 0.0, math.inf)
     return float(ratio * normal_gravity(parameters) / math.sin(parameters[model.ANGLE]))

@@ -2,44 +2,55 @@
 
 import numpy as np
 
-from ..packing import as_rows, as_table
+from ..arguments import LARGEST_COORDINATE, MOST_CYCLES, check_count, check_numbers, check_tolerance
+from ..packing import as_table, check_row, check_rows
+from ..parameters import DEFAULT_TOLERANCE
+from ..solver.model import Conveyor
 from . import stroboscopic_map
 
 
-def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
-    """States (δ in m, v in m/s) at the phases ψ0 of a table of initial conditions, shape (n,): shape (n, 2).
+def initial_states(parameters: Conveyor | np.ndarray, tolerance: float = DEFAULT_TOLERANCE) -> np.ndarray:
+    """States (δ in m, v in m/s) at the phases ψ0 of a table of initial conditions with n rows: shape (n, 2).
 
     Examples
     --------
-    >>> initial_states(parameter_table(Conveyor(acceleration=0.0), z0=[0.0, 1e-4]), 1e-10).tolist()
+    >>> initial_states(parameter_table(Conveyor(acceleration=0.0), z0=[0.0, 1e-4])).tolist()
     [[-0.0, -0.0], [-0.0001, -0.0]]
     """
-    return stroboscopic_map.initial_states(as_rows(parameters), tolerance)
+    return stroboscopic_map.initial_states(check_rows(parameters)[0], check_tolerance(tolerance))
 
 
-def strobes(parameters: np.ndarray, cycles: int, tolerance: float) -> np.ndarray:
+def strobes(parameters: Conveyor | np.ndarray, cycles: int, tolerance: float = DEFAULT_TOLERANCE) -> np.ndarray:
     """The states (δ in m, v in m/s) of one motion, a row of a table, after each of some cycles: shape (cycles, 2).
 
-    NaN from a failure on.
+    NaN from a failure on. At most 1e6 cycles.
 
     Examples
     --------
-    >>> strobes(parameter_table(Conveyor(), z0=3e-4), 5, 1e-10).shape
+    >>> strobes(parameter_table(Conveyor(), z0=3e-4), 5).shape
     (5, 2)
     """
-    row = as_rows(parameters)
+    row, tolerance = check_row("parameters", parameters), check_tolerance(tolerance)
+    cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
     (state,) = stroboscopic_map.initial_states(row[None], tolerance)
     return stroboscopic_map.follow_map(row, tolerance, state, cycles)[1]
 
 
-def start_at(parameters: np.ndarray, states: np.ndarray, tolerance: float) -> np.ndarray:
-    """The table with initial conditions that begin at states (δ in m, v in m/s) at the phases ψ0, shape (n, 2).
+def start_at(parameters: Conveyor | np.ndarray, states: np.ndarray, tolerance: float = DEFAULT_TOLERANCE) -> np.ndarray:
+    """The table, shape (n,), with initial conditions that begin at states (δ in m, v in m/s) at the phases ψ0.
+
+    states : shape (n, 2); those of one conveyor may be many; NaN for a motion that failed
 
     Examples
     --------
     >>> parameters = parameter_table(Conveyor(), z0=[1e-4, 3e-4])
-    >>> again = start_at(parameters, initial_states(parameters, 1e-10), 1e-10)
+    >>> again = start_at(parameters, initial_states(parameters))
     >>> bool(np.allclose(again["z0"], parameters["z0"], atol=1e-15))
     True
     """
-    return as_table(stroboscopic_map.pack_states(as_rows(parameters), states, tolerance))
+    (rows, shape), states = check_rows(parameters), check_numbers("states", states).astype(np.float64)
+    if shape == () and states.ndim == 2:
+        rows = np.tile(rows, (len(states), 1))
+    if states.shape != (len(rows), 2) or (np.abs(states) > LARGEST_COORDINATE).any():
+        raise ValueError(f"states must be δ and v of the shape ({len(rows)}, 2), got the shape {states.shape}")
+    return as_table(stroboscopic_map.pack_states(rows, states, check_tolerance(tolerance)))

@@ -32,6 +32,7 @@ HIDDEN = 1e-6  # a determinant that is a smaller share of its two products is lo
 # Features of a cycle.
 IMPACTS, CONTACT_TIME, DAMPER_TIME, LONGEST_FLIGHT, AIRBORNE = range(5)
 FEATURES = 5
+AT_ONCE = 20_000  # cycles in one call of compiled code, during which Ctrl-C waits
 
 
 def initial_states(parameters: np.ndarray, tolerance: float) -> np.ndarray:
@@ -187,13 +188,21 @@ def follow_map(
     features : float64, shape (cycles, 5), see `advance`; NaN from a failure on
     """
     strobes, features = np.full((cycles, 2), np.nan), np.full((cycles, FEATURES), np.nan)
-    harmonics = plate.count_harmonics(parameters)
-    return fill_map(parameters, tolerance, harmonics, state, strobes, features), strobes, features
+    status, airborne, harmonics = OK, 0.0, plate.count_harmonics(parameters)
+    for begin in range(0, cycles, AT_ONCE):
+        part = slice(begin, begin + AT_ONCE)
+        status = fill_map(parameters, tolerance, harmonics, state, airborne, strobes[part], features[part])
+        if status != OK:
+            break
+        airborne = float(features[part][-1, AIRBORNE])
+    return status, strobes, features
 
 
 @compiled
-def fill_map(parameters, tolerance, harmonics, state, strobes, features):
+def fill_map(parameters, tolerance, harmonics, state, airborne, strobes, features):
     """The compiled part of `follow_map`, which fills the arrays and returns the status.
+
+    airborne : time since the last separation, s
 
     Numba runs Python code where a compiled function returns an array. Ctrl-C would be raised there, as a SystemError.
     """
@@ -201,6 +210,7 @@ def fill_map(parameters, tolerance, harmonics, state, strobes, features):
     series = contact.workspace()
     no_tangent = np.empty((0, 2))
     cycle_features = np.zeros(FEATURES)
+    cycle_features[AIRBORNE] = airborne
     cycles = len(strobes)
     mark = 0  # 0, 1, 3, 7, …: at last one is in the repeated part, a whole period before n (Brent 1980)
     for n in range(cycles):

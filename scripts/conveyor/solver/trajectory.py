@@ -4,14 +4,17 @@ import math
 
 import numpy as np
 
+from ..parallel import call_interruptibly
 from . import contact, pieces, plate, repeated_steps
 from .arrivals import EVERY_CYCLE, first_block, has_arrived, record_arrivals, skip_blocks
 from .horizontal import Horizontal, follow_horizontal, touch_down
 from .jit import compiled, no_refcount
-from .model import VZ0, Z0
-from .record import MAX_GAP, RESULTS, SAMPLES, Record, Step, count_piece, end_record, is_sampled, record_end
+from .model import FREQUENCY, VZ0, Z0
+from .record import MAX_GAP, RESULTS, SAMPLED, SAMPLES, Record, Step, count_piece, end_record, is_sampled, record_end
 from .status import OK
 from .vertical import FLIGHT
+
+LONG = 10_000  # excitation cycles, which take some tenths of a second
 
 
 def integrate(
@@ -67,15 +70,20 @@ def integrate(
         vx0 = np.zeros(n)
     # Plain tuples, because numba takes several microseconds per call to find the type of a named tuple.
     records = (times, since, samples, event_times, event_kinds, arrivals, results)
-    # `follow` expects results of zero.
-    follow(
-        parameters,
-        vx0,
-        (tolerance, feeding, reuse, repetition, plate.count_harmonics(parameters)),
-        records,
-        distances,
-        contact.workspace(repeated_steps.PLACES),
-    )
+    options = tolerance, feeding, reuse, repetition, plate.count_harmonics(parameters)
+    series = contact.workspace(repeated_steps.PLACES)
+
+    def run():
+        # `follow` expects results of zero.
+        follow(parameters, vx0, options, records, distances, series)
+
+    def stop():
+        results[:, SAMPLED] = k  # a run whose samples have all been taken ends
+
+    if k and (times[:, -1] * parameters[:, FREQUENCY]).max(initial=0.0) > LONG:
+        call_interruptibly(run, stop)
+    else:
+        run()
     return samples, results
 
 

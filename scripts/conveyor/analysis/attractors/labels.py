@@ -18,14 +18,15 @@ import numpy as np
 
 from ...arguments import MOST_CYCLES, check_count, check_flag, check_threads, check_tolerance, check_type
 from ...columns import Columns
-from ...packing import check_rows
+from ...packing import as_table, check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
 from ...solver.model import FREQUENCY
 from ..chaos import lyapunov
 from . import convergence_lanes
-from .attractor_table import NO_ATTRACTORS, AttractorTable
+from .attractor_table import NO_ATTRACTORS, AttractorTable, distinct_rows
 from .convergence import IN_CHAOTIC_SET, NOT_CONVERGED, PERIODIC, new_trajectories
+from .identity import Attractors, identify
 
 STATES = ("first", "second", "chaos", "undecided")
 FIRST, SECOND, CHAOS, UNDECIDED = range(len(STATES))
@@ -38,12 +39,18 @@ CYCLES = 20_000
 TOGETHER = 8192
 
 
+def regular_state(flight: float) -> str:
+    """The state of motion of a regular motion with a longest flight, in excitation cycles."""
+    return STATES[SECOND if flight >= LONG_FLIGHT else FIRST]
+
+
 def classify(
     parameters: np.ndarray,
     *,
     cycles: int = CYCLES,
-    attractors: AttractorTable = NO_ATTRACTORS,
+    attractors: AttractorTable | Attractors = NO_ATTRACTORS,
     exponents: bool = True,
+    other_tolerance: float | None = None,
     tolerance: float = DEFAULT_TOLERANCE,
     threads: int = 1,
     progress: str | None = None,
@@ -54,8 +61,10 @@ def classify(
     ----------
     parameters : from `parameter_table` or, after a run, from `restart`, of any shape
     cycles : excitation cycles after which the search for a period ends, up to 1e6
-    attractors : known attractors of the conveyors, see search.find_attractors; by default none
+    attractors : known attractors of the conveyors, which save time: from search.find_attractors, or, of one conveyor,
+        from `attractors`
     exponents : whether Lyapunov exponents label trajectories that have not converged; otherwise they stay undecided
+    other_tolerance : a second tolerance, with which each label is found once more
     tolerance : of the contact steps
     threads, progress : as in `sweep`
 
@@ -63,7 +72,9 @@ def classify(
     -------
     columns of the shape of `parameters`: state, one of `STATES`; period (int64, excitation cycles), 0 for none of up to
     MAX_PERIOD; longest_flight (excitation cycles), NaN for chaos and undecided trajectories; cycles (int64) that the
-    trajectory was followed for; delta (m) and v (m/s), the last penetration at the beginning of a cycle and its rate
+    trajectory was followed for; delta (m) and v (m/s), the last penetration at the beginning of a cycle and its rate.
+    With `attractors` of one conveyor: attractor (int64), its number among them, -1 for another one. With
+    `other_tolerance`: confirmed (bool), whether state and period are the same with it
 
     Examples
     --------
@@ -74,16 +85,19 @@ def classify(
     cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
     tolerance, threads = check_tolerance(tolerance), check_threads(threads)
     parameters, shape = check_rows(parameters)
-    check_type("attractors", attractors, AttractorTable)
+    if not isinstance(attractors, Attractors):
+        check_type("attractors", attractors, AttractorTable)
+    elif not (distinct_rows(parameters)[0] == attractors.conveyor).all():
+        raise ValueError("attractors are those of another conveyor; give an AttractorTable for several")
+    table = attractors.table if isinstance(attractors, Attractors) else attractors
+    given = {"cycles": cycles, "attractors": attractors, "exponents": exponents, "threads": threads}
     exponents = check_flag("exponents", exponents)
     n = len(parameters)
-    trajectories, table_rows = new_trajectories(n), attractors.rows_of(parameters)
+    trajectories, table_rows = new_trajectories(n), table.rows_of(parameters)
 
     def work(begin, end):
         rows = slice(begin, end)
-        chunk = convergence_lanes.follow_all_to_attractors(
-            parameters[rows], tolerance, cycles, attractors, table_rows[rows]
-        )
+        chunk = convergence_lanes.follow_all_to_attractors(parameters[rows], tolerance, cycles, table, table_rows[rows])
         for column, values in zip(trajectories, chunk, strict=True):
             column[rows] = values
 
@@ -104,4 +118,11 @@ def classify(
     delta, v = trajectories.states.T
     labels = {"state": np.array(STATES, dtype=object)[codes], "period": trajectories.periods, "longest_flight": flights}
     labels |= {"cycles": trajectories.followed, "delta": delta, "v": v}
-    return Columns({name: column.reshape(shape) for name, column in labels.items()})
+    found = Columns({name: column.reshape(shape) for name, column in labels.items()})
+    if isinstance(attractors, Attractors):
+        found = Columns({**found, "attractor": identify(attractors, found)})
+    if other_tolerance is not None:
+        other_tolerance = check_tolerance(other_tolerance, "other_tolerance")
+        again = classify(as_table(parameters).reshape(shape), **given, tolerance=other_tolerance, progress=progress)
+        found = Columns({**found, "confirmed": (again.state == found.state) & (again.period == found.period)})
+    return found

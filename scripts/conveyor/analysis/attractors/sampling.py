@@ -20,8 +20,8 @@ SAMPLES = 32
 SHORT_SEARCH = 400  # cycles; most trajectories that do not end in chaos become periodic within them
 
 
-def sampled_initial_conditions(parameters: np.ndarray) -> np.ndarray:
-    """Initial conditions of one conveyor, a row of a table: δ (m) and v (m/s), shape (SAMPLES, 2).
+def sampled_initial_conditions(parameters: np.ndarray, count: int = SAMPLES) -> np.ndarray:
+    """Initial conditions of one conveyor, a row of a table: δ (m) and v (m/s), shape (count, 2).
 
     The parts are in the air while the plate is at its highest point. To jump over one or two cycles a part leaves the
     plate with about the plate's speed plus half of g T at most. This sum bounds the velocities, and the height that a
@@ -37,7 +37,7 @@ def sampled_initial_conditions(parameters: np.ndarray) -> np.ndarray:
     fastest = math.pi * (c.gravity + c.bounds.lift) / c.omega
     highest = 0.5 * fastest * fastest / c.gravity
     golden = 1.324717957244746  # the real root of x³ = x + 1
-    share = np.modf(np.arange(1, SAMPLES + 1)[:, None] * np.array([1.0 / golden, 1.0 / golden**2]))[0]
+    share = np.modf(np.arange(1, count + 1)[:, None] * np.array([1.0 / golden, 1.0 / golden**2]))[0]
     return np.column_stack([-highest * share[:, 0], fastest * (2.0 * share[:, 1] - 1.0)])
 
 

@@ -16,6 +16,7 @@ and below 1. No orbit therefore has two multipliers +1, two -1, or one of each, 
 not generic.
 """
 
+import math
 from collections.abc import Iterable
 from enum import StrEnum
 from typing import NamedTuple
@@ -24,19 +25,25 @@ import numpy as np
 from scipy.optimize import root
 
 from ... import linear_algebra
-from ..dimensionless_groups import Groups
+from ...arguments import check_choice, check_limits, check_type
+from ...columns import Columns
+from ...packing import replace_parameters
+from ..dimensionless_groups import Groups, amplitude_of, length_and_speed_units
 from .bifurcation_points import (
     EVALUATIONS,
     GRAZING,
     SIGNS,
     TOUCHES,
     BifurcationPoint,
+    bifurcation_near,
     conditions,
     find_bifurcation,
     linearise,
     multiplier_test,
     touching_point,
+    velocity_for_y,
 )
+from .continuation import Bifurcation
 from .newton import difference_quotients, follow_curve, newton
 
 CONVERGED, ITERATIONS = 1e-10, 12  # last correction of Newton's iteration, and number of corrections
@@ -68,6 +75,19 @@ class ParameterPath(NamedTuple):
 
     damping: float
     stiffness: float
+
+
+# How parameters move the groups, for an exponent p of the contact. The angle moves Γ alone.
+PATHS = {
+    "angle": lambda p: ParameterPath(0.0, 0.0),
+    "damping": lambda p: ParameterPath(1.0, 0.0),
+    "frequency": lambda p: ParameterPath(-1.0, -2.0 * p),
+    "gravity": lambda p: ParameterPath(0.0, p - 1.0),
+    "mass": lambda p: ParameterPath(-1.0, -1.0),
+    "stiffness": lambda p: ParameterPath(0.0, 1.0),
+}
+# Of `continue_bifurcation`: the largest factor on Γ, arclength of the longest step, and points on each side.
+FACTOR, LONGEST_STEP, MOST_POINTS = 10.0, 0.1, 1000
 
 
 class CodimensionTwoPoint(NamedTuple):
@@ -277,6 +297,91 @@ def follow_grazing_curve(
     points, log_ratios = [one for one, _ in path_points], np.array([log_ratio for _, log_ratio in path_points])
     impacts = np.zeros(len(points), dtype=np.int64)
     return BifurcationCurve(points, log_ratios, np.full(len(points), np.nan), impacts, [], tuple(ends))
+
+
+def continue_bifurcation(bifurcation: Bifurcation, parameter: str, limits: tuple[float, float]) -> Columns:
+    """The curve of a bifurcation over the amplitude and a second parameter, with its points of codimension two.
+
+    Parameters
+    ----------
+    bifurcation : of a branch from `continue_orbit`; the plate has no harmonics
+    parameter : angle, damping, frequency, gravity, mass or stiffness
+    limits : lowest and highest value of the parameter in SI units, on either side of the bifurcation's value
+
+    Returns
+    -------
+    columns of the shape (n,): kind, that of the bifurcation for the points of the curve in order, and behind them cusp,
+    generalised doubling or grazing; period (excitation cycles); acceleration (m/s²) and the parameter (SI units); delta
+    (m) and v (m/s), the state at phase 0, NaN for a grazing; normal_form, which is zero at a cusp and at a generalised
+    doubling; status, "ok", or at the ends of the curve the reason: limit (also of FACTOR times the amplitude), length,
+    closed, lost, period halving, or step, where no smooth curve goes on
+
+    Examples
+    --------
+    >>> orbit = periodic_orbit(Conveyor(acceleration=50.0), Start(z=3e-4))
+    >>> (doubling,) = continue_orbit(orbit, "acceleration", (49.0, 55.0)).bifurcations
+    >>> curve = continue_bifurcation(doubling, "damping", (0.2, 0.4))
+    >>> curve.acceleration[[0, -1]].round(2).tolist(), curve.damping[[0, -1]].round(2).tolist()  # m/s², N s/m
+    ([52.02, 56.86], [0.2, 0.4])
+    """
+    check_type("bifurcation", bifurcation, Bifurcation)
+    check_choice("parameter", parameter, PATHS)
+    check_choice("bifurcation.kind", bifurcation.kind, (*SIGNS, GRAZING))
+    row, kind, period = bifurcation.orbit.parameters, bifurcation.kind, bifurcation.orbit.period
+    ends = check_limits("limits", limits, parameter, row[parameter].item())
+    if not ends[0] > 0.0:
+        raise ValueError(f"limits[0] = {limits[0]!r} must be above 0: a curve is followed over the logarithm")
+    point = bifurcation_near(row, kind, bifurcation.orbit.state, period)
+    if point is None:
+        raise ValueError("bifurcation is none of its conveyor; find one with continue_orbit")
+    scale = np.sin if parameter == "angle" else np.asarray
+    back = np.arcsin if parameter == "angle" else np.asarray
+    begin, *reach = np.log(scale([row[parameter].item(), *ends])).tolist()
+    around = (point.groups.amplitude / FACTOR, point.groups.amplitude * FACTOR), tuple(end - begin for end in reach)
+    path = PATHS[parameter](point.groups.exponent)
+    if kind == GRAZING:
+        curve = follow_grazing_curve(point, path, *around, step=0.5 * LONGEST_STEP)
+    else:
+        curve = follow_bifurcation_curve(point, path, *around, longest_step=LONGEST_STEP, most=MOST_POINTS)
+    points = [(kind, one, part, form, "ok") for one, part, form in zip(*curve[:3], strict=True)]
+    for end, next_to_end in ((0, 1), (-1, -2)) if len(points) > 1 else ():
+        last = _at_limit(points[end], points[next_to_end], path, around[1])
+        points[end] = (*last[:-1], str(curve.ends[end]))
+    rows = points + [(one.kind, one.point, one.log_ratio, np.nan, one.status) for one in curve.meetings]
+    kinds, points, parts, forms, status = zip(*rows, strict=True)
+    values = back(np.exp(begin + np.array(parts)))
+    conveyors = [replace_parameters(row, **{parameter: value}) for value in values.tolist()]
+    states = [
+        velocity_for_y(one.groups, one.unknown[:2]) * length_and_speed_units(here)
+        if len(one.unknown) == 3
+        else [np.nan] * 2
+        for one, here in zip(points, conveyors, strict=True)
+    ]
+    delta, v = np.array(states).T
+    amplitudes = [amplitude_of(here, one.groups.amplitude) for one, here in zip(points, conveyors, strict=True)]
+    columns = {"kind": np.array(kinds, dtype=object), "period": np.full(len(points), period)}
+    columns |= {"acceleration": np.array(amplitudes), parameter: values, "delta": delta, "v": v}
+    columns |= {"normal_form": np.array(forms), "status": np.array(status, dtype=object)}
+    inside = (np.array(parts) >= around[1][0]) & (np.array(parts) <= around[1][1])
+    return Columns(columns).select(inside)
+
+
+def _at_limit(last, before, path, reach):
+    """The last row of a curve, or, where it lies beyond the limits of λ, that of the curve on the limit, if found."""
+    (kind, point, part, form, _), (_, inner, start, *_) = last, before
+    limit = min(max(part, reach[0]), reach[1])
+    if limit == part:
+        return last
+    share = (limit - start) / (part - start)
+    guess = inner.unknown + share * (point.unknown - inner.unknown)
+    groups = CurveEquations(point, path).groups(np.array([0.0, 0.0, np.log(point.groups.amplitude), limit - part]))
+    found = find_bifurcation(kind, point.period, guess, groups)
+    if found is None:
+        return last
+    if kind in SIGNS:
+        value, _ = normal_form(found, np.array([1.0, 0.0]))
+        form = math.copysign(value, form) if kind == "fold" else value  # that of a fold has the sign of r
+    return kind, found, limit, form, "ok"
 
 
 def _side(equations, begin, direction, limits, longest_step, most):

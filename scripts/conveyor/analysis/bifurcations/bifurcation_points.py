@@ -32,6 +32,8 @@ ITERATIONS = 30
 EVALUATIONS, TOUCHES = 60, 1e-8
 FARTHEST = 10.0
 DIFFERENCE = 3e-6  # step of difference quotients, in the unknowns
+# Largest relative difference of the amplitudes of one bifurcation that was found in two ways.
+SAME = 1e-6
 # Moments of an orbit at which a touch is looked for.
 MOMENTS = 1000
 
@@ -153,6 +155,25 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
         limits = {"iterations": ITERATIONS, "largest": FARTHEST, "stagnant": STAGNANT}
         here = newton(system, unknown, converged=CONVERGED, **limits)
     return None if here is None else BifurcationPoint(kind, period, here, groups._replace(amplitude=float(here[-1])))
+
+
+def bifurcation_near(parameters: np.ndarray, kind: str, state: np.ndarray, period: int) -> BifurcationPoint | None:
+    """The bifurcation of a conveyor near one that is known in SI units; None if it is not found.
+
+    Parameters
+    ----------
+    parameters : a row of a table, with the amplitude of the bifurcation
+    kind : fold, period_doubling or grazing
+    state : of the orbit there, δ (m) and v (m/s) at the phase ψ0, shape (2,)
+    period : excitation cycles of the orbit
+    """
+    groups, here = groups_of(parameters), at_phase_zero(parameters, state)
+    if here is None:
+        return None
+    guess = touching_point(groups, here, period) if kind == GRAZING else np.append(here, groups.amplitude)
+    point = None if guess is None else find_bifurcation(kind, period, guess, groups)
+    is_same = point is not None and abs(point.groups.amplitude / groups.amplitude - 1.0) < SAME
+    return point if is_same else None
 
 
 def touching_point(groups: Groups, state: np.ndarray, period: int) -> np.ndarray | None:

@@ -13,9 +13,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ... import linear_algebra
-from ...arguments import check_choice, check_number
+from ...arguments import check_choice, check_limits
 from ...columns import Columns
-from ...parameters import RANGES, UNITS
 from .newton import follow_curve
 from .periodic_orbits import SAME_ORBIT, Orbit, ReturnMap, check_orbit
 
@@ -109,11 +108,7 @@ def continue_orbit(orbit: Orbit, parameter: str, limits: tuple[float, float]) ->
     """
     check_orbit("orbit", orbit)
     check_choice("parameter", parameter, CONTINUED)
-    unit, (lowest, highest), value = UNITS[parameter], RANGES[parameter], orbit.value(parameter)
-    if not isinstance(limits, (tuple, list, np.ndarray)) or len(limits) != 2:
-        raise ValueError(f"limits = {limits!r} must be the lowest and the highest {parameter}")
-    low = check_number("limits[0]", limits[0], lowest, value, unit)
-    high = check_number("limits[1]", limits[1], value, highest, unit)
+    low, high = check_limits("limits", limits, parameter, orbit.value(parameter))
     branch = follow_branch(orbit, parameter, (low, high))
     return branch._replace(
         orbits=[one for one in branch.orbits if low <= one.value(parameter) <= high],

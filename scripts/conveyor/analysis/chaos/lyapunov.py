@@ -21,7 +21,7 @@ from ...solver.pieces import BEGIN_OF_CYCLE
 from ...solver.status import NOT_FINITE, OK, STATUS
 from .. import stroboscopic_map
 from ..dimensionless_groups import length_and_speed_units
-from ..stroboscopic_map import MAX_PERIOD
+from ..stroboscopic_map import AT_ONCE, MAX_PERIOD
 from . import stretching
 
 # Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
@@ -39,7 +39,7 @@ SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs fr
 
 
 @compiled
-def fill_stretches(parameters, state, tolerance, harmonics, phase, transient, stretches, contact_times):
+def fill_stretches(parameters, state, tolerance, harmonics, phase, tangent, stretches, contact_times):
     """Follow a trajectory, and the stretching of its perturbations in each cycle; a code of status.STATUS.
 
     Parameters
@@ -48,17 +48,15 @@ def fill_stretches(parameters, state, tolerance, harmonics, phase, transient, st
     state : float64, shape (2,), δ (m) and v (m/s) at the `phase` (rad); replaced by the last state
     tolerance : of the contact steps
     harmonics : as from plate.count_harmonics
-    transient : excitation cycles that are discarded
+    tangent : float64, shape (2, 2), two perturbations; replaced
     stretches : float64, shape (cycles, 2), see stretching, to fill up to a failure
     contact_times : float64, shape (cycles,), s, to fill up to a failure
     """
     c = contact.compute_constants(parameters, tolerance, harmonics)
     series = contact.workspace()
     features = np.zeros(stroboscopic_map.FEATURES)
-    discarded = np.empty(2)
     # Velocities count in units of ω × length, which makes both directions comparable.
-    tangent = np.eye(2)
-    for n in range(-transient, len(stretches)):
+    for n in range(len(stretches)):
         for k in range(2):
             tangent[k, 1] *= c.omega
         status = stroboscopic_map.advance(c, series, state, phase, c.period, tangent, features)
@@ -66,13 +64,12 @@ def fill_stretches(parameters, state, tolerance, harmonics, phase, transient, st
             return status
         for k in range(2):
             tangent[k, 1] /= c.omega
-        logs = stretches[n] if n >= 0 else discarded
+        logs = stretches[n]
         stretching.orthonormalise(tangent, logs)
         if logs[1] < logs[0] + LOST:
             logs[1] = contact_law.log_contraction(c, features[stroboscopic_map.DAMPER_TIME]) - logs[0]
             tangent[1, 0], tangent[1, 1] = -tangent[0, 1], tangent[0, 0]
-        if n >= 0:
-            contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
+        contact_times[n] = features[stroboscopic_map.CONTACT_TIME]
     return OK
 
 
@@ -139,8 +136,13 @@ def lyapunov_spectrum(
 
     def work(begin, end):
         for i in range(begin, end):
-            own = stretches[i], contact_times[i]
-            codes[i] = fill_stretches(parameters[i], states[i], tolerance, harmonics, phases[i], transient, *own)
+            tangent, discarded = np.eye(2), (np.empty((transient, 2)), np.empty(transient))
+            for logs, contacts in (discarded, (stretches[i], contact_times[i])):
+                for first in range(0, len(logs), AT_ONCE):
+                    if codes[i] == OK:
+                        own = logs[first : first + AT_ONCE], contacts[first : first + AT_ONCE]
+                        given = parameters[i], states[i], tolerance, harmonics, phases[i]
+                        codes[i] = fill_stretches(*given, tangent, *own)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
     period = 1.0 / parameters[:, FREQUENCY]

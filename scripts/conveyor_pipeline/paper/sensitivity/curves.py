@@ -5,9 +5,9 @@ import pandas as pd
 
 from conveyor import UNITS, amplitude_of
 from conveyor.analysis.bifurcations.bifurcation_curves import (
+    PATHS,
     BifurcationCurve,
     CurveEnd,
-    ParameterPath,
     follow_bifurcation_curve,
     follow_grazing_curve,
 )
@@ -47,12 +47,7 @@ TABLES = {
         fields.text("status", "ok, or the reason why the point is only near the meeting"),
     ),
 }
-# Exponents of a parameter in the groups D and K; the angle is in neither.
-POWERS = {
-    "damping": lambda p: ParameterPath(1.0, 0.0),
-    "stiffness": lambda p: ParameterPath(0.0, 1.0),
-    "frequency": lambda p: ParameterPath(-1.0, -2.0 * p),
-}
+VARIED = ("damping", "stiffness", "frequency")
 DOUBLINGS = 3  # of the cascade, by an effort of 1
 POINTS = 250  # on each side of a curve, after which it ends
 ENDS = {
@@ -99,7 +94,7 @@ def follow_curve(parameters: np.ndarray, point: BifurcationPoint, parameter: str
     reach = np.log(factor)
     if parameter == "angle":
         return angle_curve(point, parameters["angle"], reach)
-    path = POWERS[parameter](point.groups.exponent)
+    path = PATHS[parameter](point.groups.exponent)
     limits = LIMITS, (-reach, reach)
     if point.kind == GRAZING:
         return follow_grazing_curve(point, path, *limits, step=0.5 * STEP)
@@ -152,7 +147,7 @@ def make(
     doublings = max(1, round(settings["effort"] * DOUBLINGS))
     chosen = select_bifurcations(parameters, folds_and_doublings, cascade, doublings)
     chosen = [one for one in chosen if one.point is not None and (one.kind != GRAZING or one.rides)]
-    tasks = [(bifurcation, parameter) for bifurcation in chosen for parameter in POWERS]
+    tasks = [(bifurcation, parameter) for bifurcation in chosen for parameter in VARIED]
     tasks += [(bifurcation, "angle") for bifurcation in chosen]
     rows_of_curves = [None] * len(tasks)
 

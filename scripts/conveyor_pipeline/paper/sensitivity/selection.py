@@ -5,19 +5,11 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor import groups_of, replace_parameters
-from conveyor.analysis.bifurcations.bifurcation_points import (
-    GRAZING,
-    BifurcationPoint,
-    at_phase_zero,
-    find_bifurcation,
-    touching_point,
-)
+from conveyor import replace_parameters
+from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, SAME, BifurcationPoint, bifurcation_near
 from conveyor_pipeline.common import fields
 from conveyor_pipeline.paper.sensitivity.limits import LONGEST_PERIOD, MOST
 
-# Largest relative difference of the amplitudes of one bifurcation in two tables, or in a table and solved again.
-SAME = 1e-6
 COLUMNS = (
     fields.count("doubling", "number of the period doubling in the cascade of the jumping orbit; 0 for none"),
     fields.flag("rides", "for a grazing: whether the part never leaves the plate at smaller amplitudes"),
@@ -33,21 +25,6 @@ class Selected(NamedTuple):
     point: BifurcationPoint | None  # None if Newton's method does not find it again
     doubling: int  # number in the cascade; 0 for none
     rides: bool  # for a grazing: whether the part never leaves the plate at smaller amplitudes
-
-
-def solve_again(parameters: np.ndarray, row: pd.Series) -> BifurcationPoint | None:
-    """The bifurcation of a row of a table, solved in the groups; None if it is not found, or a different one is."""
-    kind, period = row["kind"], int(row.period)
-    here = replace_parameters(parameters, acceleration=row.acceleration)
-    groups = groups_of(here)
-    state = at_phase_zero(here, np.array([row.delta, row.v]))
-    if state is None:
-        return None
-    is_grazing = kind == GRAZING
-    guess = touching_point(groups, state, period) if is_grazing else np.append(state, groups.amplitude)
-    point = None if guess is None else find_bifurcation(kind, period, guess, groups)
-    is_same = point is not None and abs(point.groups.amplitude / groups.amplitude - 1.0) < SAME
-    return point if is_same else None
 
 
 def select_bifurcations(
@@ -68,7 +45,12 @@ def select_bifurcations(
             row["kind"],
             int(row.period),
             float(row.acceleration),
-            solve_again(parameters, row),
+            bifurcation_near(
+                replace_parameters(parameters, acceleration=row.acceleration),
+                row["kind"],
+                np.array([row.delta, row.v]),
+                int(row.period),
+            ),
             int(row.number),
             row["kind"] == GRAZING and row.impacts == 0,
         )

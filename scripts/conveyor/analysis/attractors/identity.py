@@ -1,0 +1,107 @@
+"""The attractors of one conveyor with what distinguishes them, and which of them a trajectory has reached."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...columns import Columns
+from ...solver import contact, contact_law
+from ...solver.model import PSI0
+from ...solver.pieces import BEGIN_OF_CYCLE
+from .. import stroboscopic_map
+from ..bifurcations.periodic_orbits import ORBIT_TOLERANCE, Orbit, orbit_near
+from ..dimensionless_groups import length_and_speed_units
+from .attractor_table import AttractorTable
+from .convergence import find_reached_orbit, is_in_chaotic_set
+
+CLOSE = 1e-3  # states this close, in g/ω² and g/ω, belong to one orbit
+UNKNOWN = -1  # the number of an attractor that no sampled initial condition leads to
+
+
+class Attractor(NamedTuple):
+    """An attractor of a conveyor."""
+
+    state: str  # first, second, chaos or undecided
+    period: int  # excitation cycles; 0 for none
+    orbit: Orbit | None  # with its multipliers, at the beginning of a cycle; None if Newton's iteration finds none
+    strobes: np.ndarray  # δ (m) and v (m/s) at the beginning of each cycle of a period, or one such state, shape (n, 2)
+    mean_velocity: float = np.nan  # m/s, of feeding
+    share: float = 0.0  # of the sampled initial conditions
+
+    def __repr__(self) -> str:
+        period = f"period {self.period}, " if self.period else ""
+        return f"Attractor({self.state}, {period}share {self.share:.3g}, {self.mean_velocity:.4g} m/s)"
+
+
+class Attractors(NamedTuple):
+    """The attractors of a conveyor. Columns and arrays refer to them by their number in `found`.
+
+    Orbits and chaotic sets of the table come first, in its order.
+    """
+
+    found: list[Attractor]
+    conveyor: np.ndarray  # float64, shape (16,), packed, its phase and initial condition zero
+    table: AttractorTable  # with which `classify` is fast
+
+    @property
+    def columns(self) -> Columns:
+        """Columns of the shape (n,): state, period, share, mean_velocity (m/s), multiplier (modulus), delta, v."""
+        found = {name: np.array([getattr(one, name) for one in self.found]) for name in ("period", "share")}
+        moduli = [abs(one.orbit.multipliers[0]) if one.orbit else np.nan for one in self.found]
+        delta, v = np.array([one.strobes[0] for one in self.found]).reshape(-1, 2).T
+        found |= {"mean_velocity": np.array([one.mean_velocity for one in self.found]), "multiplier": np.array(moduli)}
+        return Columns(
+            {"state": np.array([one.state for one in self.found], dtype=object), **found, "delta": delta, "v": v}
+        )
+
+    def __repr__(self) -> str:
+        return "\n".join(map(repr, self.found))
+
+
+def orbit_attractor(row: np.ndarray, label: str, period: int, state: np.ndarray) -> Attractor:
+    """The attractor of a periodic motion from a state (δ in m, v in m/s) close to it at the beginning of a cycle."""
+    row = np.array(row)
+    row[PSI0] = BEGIN_OF_CYCLE
+    orbit = orbit_near(row, state, period)
+    if orbit is None or not orbit.stable or distance(row, orbit.state, state) > CLOSE:
+        orbit = None
+    start = np.array(state if orbit is None else orbit.state)
+    _, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, start.copy(), period)
+    return Attractor(label, period, orbit, np.vstack([start, strobes[:-1]]))
+
+
+def distance(row: np.ndarray, state: np.ndarray, others: np.ndarray) -> float:
+    """The least distance of a state from other states, shape (…, 2), in g/ω² and g/ω."""
+    return float((np.abs(others - state) / length_and_speed_units(row)).max(axis=-1).min())
+
+
+def state_of(row: np.ndarray, centre: np.ndarray) -> np.ndarray:
+    """δ (m) and v (m/s) of a centre of attractor_table.AttractingOrbits."""
+    constants = contact.constants(row, ORBIT_TOLERANCE)
+    return np.array([centre[0], contact_law.speed_of_approach(constants, centre[0], centre[1])])
+
+
+def identify(attractors: Attractors, labels: Columns) -> np.ndarray:
+    """The number of the attractor of each label of its conveyor, int64, in the shape of the labels; or UNKNOWN.
+
+    labels : from `classify`, with the table of the attractors
+    """
+    row, table, numbers = attractors.conveyor, attractors.table, np.full(labels.period.shape, UNKNOWN)
+    constants, orbits = contact.constants(row, ORBIT_TOLERANCE), len(table.orbits.periods)
+    for place in np.ndindex(numbers.shape):
+        state = np.array([labels.delta[place], labels.v[place]])
+        label, period = labels.state[place], labels.period[place]
+        number = find_reached_orbit(constants, state, table.orbits, 0, orbits) if period else UNKNOWN
+        if label == "chaos":
+            inside = (k for k in range(len(table.chaotic.low)) if is_in_chaotic_set(state, table.chaotic, k, k + 1))
+            number = orbits + next(inside, UNKNOWN - orbits)
+        # All motions without a known chaotic set, or without a label, count as one attractor.
+        for k, one in enumerate(attractors.found if number == UNKNOWN else ()):
+            if (
+                one.state == label
+                and one.period == period
+                and (not period or distance(row, state, one.strobes) < CLOSE)
+            ):
+                number = k
+        numbers[place] = number
+    return numbers
