@@ -52,7 +52,7 @@ def attractors(
     Attractor(first, period 1, share 0.0469, 0.03262 m/s)
     """
     row = check_row("conveyor", conveyor)
-    samples = arguments.check_count("samples", samples, 1, arguments.MOST_VALUES)
+    samples = arguments.check_count("samples", samples, 1, arguments.MOST_CYCLES)
     options = {"cycles": cycles, "tolerance": tolerance, "threads": threads, "progress": progress}
     table = search.find_attractors(as_table(row[None]), **options)
     conveyor = table.orbits.conveyors[0] if len(table.orbits.conveyors) else labels.distinct_rows(row[None])[0][0]

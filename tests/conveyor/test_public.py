@@ -1,6 +1,7 @@
 """The public interface: its examples run, and no odd argument makes it hang, give NaN with "ok" or a nameless error."""
 
 import doctest
+import functools
 import importlib
 import inspect
 import os
@@ -17,7 +18,7 @@ import pandas as pd
 import pytest
 
 import conveyor
-from conveyor import Bifurcation, Conveyor, Start, columns, parameter_table, simulation
+from conveyor import Conveyor, Start, columns, parameter_table, simulation
 from conveyor.analysis.attractors import sampling, search
 from conveyor.analysis.chaos import lyapunov
 from conveyor.parameters import PARAMETERS, RANGES
@@ -112,6 +113,13 @@ def orbit():
     return conveyor.periodic_orbit(Conveyor(), Start(3e-4), transient=100)
 
 
+@functools.cache
+def doubling():
+    """The first period doubling of the paper's jumping motion."""
+    orbit = conveyor.periodic_orbit(Conveyor(acceleration=54.2), Start(3e-4))
+    return conveyor.continue_orbit(orbit, "acceleration", (54.1, 54.3)).bifurcations[0]
+
+
 def function_of(name):
     """One of FUNCTIONS."""
     return SECOND_DOOR[name] if name in SECOND_DOOR else getattr(conveyor, name)
@@ -119,8 +127,7 @@ def function_of(name):
 
 def arguments_of(name, orbit):
     """The arguments of one of FUNCTIONS."""
-    bifurcation = Bifurcation("grazing", orbit, 0.5, "acceleration")
-    more = {"continue_orbit": {"orbit": orbit}, "continue_bifurcation": {"bifurcation": bifurcation}}
+    more = {"continue_orbit": {"orbit": orbit}, "continue_bifurcation": {"bifurcation": doubling()}}
     return FUNCTIONS[name] | more.get(name, {})
 
 
@@ -280,9 +287,8 @@ def test_labels_say_whether_another_tolerance_confirms_them():
 
 def test_a_curve_in_two_parameters_agrees_with_branches_at_its_ends():
     begin = conveyor.periodic_orbit(Conveyor(acceleration=50.0), Start(3e-4))
-    (doubling,) = conveyor.continue_orbit(begin, "acceleration", (49.0, 55.0)).bifurcations
     for parameter, limits in (("damping", (0.25, 0.35)), ("angle", (0.18, 0.25)), ("mass", (6e-4, 8e-4))):
-        curve = conveyor.continue_bifurcation(doubling, parameter, limits)
+        curve = conveyor.continue_bifurcation(doubling(), parameter, limits)
         assert curve.status[[0, -1]].tolist() == ["limit", "limit"]
         assert sorted(curve[parameter][[0, -1]]) == pytest.approx(sorted(limits))
         high = curve.acceleration[-1]
@@ -291,7 +297,7 @@ def test_a_curve_in_two_parameters_agrees_with_branches_at_its_ends():
         (same,) = conveyor.continue_orbit(orbit, "acceleration", (0.98 * high, 1.01 * high)).bifurcations
         assert same.orbit.acceleration == pytest.approx(high, rel=1e-9)
     with pytest.raises(ValueError, match=r"limits\[0\] = 0.4 must be a number in"):
-        conveyor.continue_bifurcation(doubling, "damping", (0.4, 0.5))
+        conveyor.continue_bifurcation(doubling(), "damping", (0.4, 0.5))
 
 
 def test_a_conveyor_may_stand_for_its_table():

@@ -90,5 +90,5 @@ def amplitude_of(parameters: Conveyor | np.ndarray, ratio: float) -> float:
     47.18
     """
     parameters = one_row(parameters)
-    ratio = check_number("ratio", ratio, 0.0, math.inf)
+    ratio = check_number("ratio", ratio, 0.0, 1e9)
     return float(ratio * normal_gravity(parameters) / math.sin(parameters[model.ANGLE]))

@@ -87,7 +87,7 @@ def classify(
     parameters, shape = check_rows(parameters)
     if not isinstance(attractors, Attractors):
         check_type("attractors", attractors, AttractorTable)
-    elif not (distinct_rows(parameters)[0] == attractors.conveyor).all():
+    elif not all(np.array_equal(one, attractors.conveyor) for one in distinct_rows(parameters)[0]):
         raise ValueError("attractors are those of another conveyor; give an AttractorTable for several")
     table = attractors.table if isinstance(attractors, Attractors) else attractors
     given = {"cycles": cycles, "attractors": attractors, "exponents": exponents, "threads": threads}

@@ -39,7 +39,7 @@ def check_map(labels: np.ndarray, size: int) -> np.ndarray:
     """The numbers of the labels of a map; ValueError unless it has at least two boxes of a size along each axis."""
     labels = np.asarray(labels)
     if labels.ndim == 0 or min(labels.shape) < 2 * size:
-        raise ValueError(f"labels must be a map of at least {2 * size} points along each axis, got {labels.shape}")
+        raise ValueError(f"labels must be a map with two boxes of size = {size} along each axis, got {labels.shape}")
     if labels.dtype.kind not in "OUSbiu":
         raise ValueError(f"labels must be words or whole numbers, got the type {labels.dtype}")
     return np.unique(labels.astype(str), return_inverse=True)[1].reshape(labels.shape)
