@@ -1,1 +1,1 @@
-"""Boundaries of basins of attraction over the initial height."""
+"""First impacts of initial conditions, and how uncertain the boundaries of basins are."""

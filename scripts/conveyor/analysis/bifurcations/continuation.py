@@ -6,7 +6,7 @@ where the multipliers jump past ±1 at a grazing, although the branch may turn t
 positive and at most 1, so that no other bifurcation of a single orbit is generic.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -244,38 +244,3 @@ def on_branch(branch: Branch, orbit: Orbit) -> bool:
             if unknown is not None and linear_algebra.length(strobes - unknown).min() < SAME_ORBIT:
                 return True
     return False
-
-
-def explore_bifurcations(
-    seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int, most: int
-) -> list[Branch]:
-    """All branches in the amplitude that are connected with the seeds through period doublings, each once.
-
-    Parameters
-    ----------
-    seeds : orbits to begin with, of conveyors that differ in the amplitude alone
-    limits : lowest and highest â, m/s²
-    max_period : longest period, excitation cycles
-    most : number of orbits, after which no further branch is followed
-
-    Examples
-    --------
-    >>> orbit = periodic_orbit(Conveyor(acceleration=54.0), Start(z=3e-4))
-    >>> branches = explore_bifurcations([orbit], (53.9, 54.4), max_period=2, most=1000)
-    >>> [branch.orbits[0].period for branch in branches]
-    [1, 2]
-    """
-    branches: list[Branch] = []
-    waiting = list(seeds)
-    while waiting and sum(len(branch.orbits) for branch in branches) < most:
-        orbit = waiting.pop(0)
-        if any(on_branch(branch, orbit) for branch in branches):
-            continue
-        branch = follow_branch(orbit, "acceleration", limits)
-        branches.append(branch)
-        if branch.parent is not None:
-            waiting.append(branch.parent)
-        if 2 * orbit.period <= max_period:
-            doublings = [b for b in branch.bifurcations if b.kind == "period_doubling"]
-            waiting += [new for b in doublings if (new := find_doubled_orbit(b)) is not None]
-    return branches

@@ -6,9 +6,9 @@ import numpy as np
 
 from conveyor import classify, restart, sweep
 from conveyor.analysis.attractors.attractor_table import AttractorTable
-from conveyor.analysis.basins.boundary_scan import find_crossings, select_critical
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import search_options, shared_attractors
+from conveyor_pipeline.paper.motion.boundary_scan import find_crossings, select_critical
 from conveyor_pipeline.paper.motion.limits import RESOLUTION
 
 NOT_LOCATED = "between two heights of the scan"

@@ -1,5 +1,7 @@
 """Branches of periodic orbits over the amplitude, their bifurcations, and the doubling cascade."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from conveyor import (
@@ -12,7 +14,7 @@ from conveyor import (
     find_doubled_orbit,
 )
 from conveyor.analysis.attractors.labels import LONG_FLIGHT
-from conveyor.analysis.bifurcations.continuation import explore_bifurcations, follow_branch, on_branch
+from conveyor.analysis.bifurcations.continuation import follow_branch, on_branch
 from conveyor.analysis.bifurcations.periodic_orbits import ReturnMap
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.rule_log import JobError
@@ -93,6 +95,34 @@ def bifurcation_rows(branches: list[Branch]) -> list[dict]:
                 about = {"kind": bifurcation.kind, "multiplier": bifurcation.multiplier, "branch": number}
                 rows.append({**describe(bifurcation.orbit), **about})
     return rows
+
+
+def explore_bifurcations(
+    seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int, most: int
+) -> list[Branch]:
+    """All branches in the amplitude that are connected with the seeds through period doublings, each once.
+
+    Parameters
+    ----------
+    seeds : orbits to begin with, of conveyors that differ in the amplitude alone
+    limits : lowest and highest â, m/s²
+    max_period : longest period, excitation cycles
+    most : number of orbits, after which no further branch is followed
+    """
+    branches: list[Branch] = []
+    waiting = list(seeds)
+    while waiting and sum(len(branch.orbits) for branch in branches) < most:
+        orbit = waiting.pop(0)
+        if any(on_branch(branch, orbit) for branch in branches):
+            continue
+        branch = follow_branch(orbit, "acceleration", limits)
+        branches.append(branch)
+        if branch.parent is not None:
+            waiting.append(branch.parent)
+        if 2 * orbit.period <= max_period:
+            doublings = [b for b in branch.bifurcations if b.kind == "period_doubling"]
+            waiting += [new for b in doublings if (new := find_doubled_orbit(b)) is not None]
+    return branches
 
 
 def explore_branches(orbits: list[Orbit], settings: dict) -> list[Branch]:

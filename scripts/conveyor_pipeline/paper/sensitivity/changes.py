@@ -16,9 +16,9 @@ from conveyor import (
     length_and_speed_units,
     replace_parameters,
 )
-from conveyor.analysis.basins.boundary_scan import locate_change
 from conveyor.analysis.bifurcations.bifurcation_points import BifurcationPoint, find_bifurcation
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.paper.motion.boundary_scan import locate_change
 from conveyor_pipeline.paper.sensitivity.limits import UNEVEN
 from conveyor_pipeline.paper.sensitivity.selection import COLUMNS, select_bifurcations
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from conveyor.analysis.fractals import box_counting, correlation_sum
-from conveyor.analysis.fractals.reference_sets import cantor, circle, sierpinski, square
+from conveyor_pipeline.paper.orbits.reference_sets import cantor, circle, sierpinski, square
 
 CANTOR = np.log(2) / np.log(3)
 SIERPINSKI = np.log(3) / np.log(2)

@@ -1,13 +1,15 @@
 """Edges of basins over z0: made-up states with known edges, and the paper's two critical heights."""
 
+import doctest
 import math
 
 import numpy as np
 import pytest
 
+from conveyor import Conveyor, parameter_table
 from conveyor.analysis.attractors import labels
-from conveyor.analysis.basins import boundary_scan
 from conveyor_pipeline.common import grid
+from conveyor_pipeline.paper.motion import boundary_scan
 
 HEIGHTS = np.linspace(0.0, 5e-4, 51)
 
@@ -123,3 +125,8 @@ def test_bisection_ends_at_neighbouring_numbers():
     rows["z0"] = 1.01e-4
     (height,) = boundary_scan.locate_change(rows, "z0", 2e-5, monotone, 1e-30)
     assert height == pytest.approx(1e-4, rel=1e-15)
+
+
+def test_examples():
+    names = {"np": np, "Conveyor": Conveyor, "classify": labels.classify, "parameter_table": parameter_table}
+    assert not doctest.testmod(boundary_scan, extraglobs=names).failed
