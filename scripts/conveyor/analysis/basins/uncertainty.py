@@ -1,9 +1,11 @@
 """How uncertain the end of a trajectory is near the boundaries of a map of basins.
 
-A box of the map is uncertain if its points have more than one label. The share of uncertain boxes grows with their size
-ε as ε^α, with the uncertainty exponent α (McDonald, Grebogi, Ott and Yorke 1985): α = 1 for a smooth boundary, and less
-for a fractal one of the dimension D - α in D dimensions. The basin entropy (Daza et al. 2016) is the mean over boxes of
--Σ p log p with the shares p of the labels in a box. Both are defined as in Attractors.jl.
+An initial condition is uncertain within ε if another one at the distance ε has another label. The share of uncertain
+initial conditions grows as ε^α with the uncertainty exponent α (McDonald, Grebogi, Ott and Yorke 1985): α = 1 for a
+smooth boundary, and less for a fractal one, whose dimension is D - α in a map of D axes. Attractors.jl counts boxes
+with several labels in place of pairs. Boxes of a few points miss most of a fractal boundary; on a Cantor set, their
+exponent is twice the true one. The basin entropy (Daza et al. 2016), as there, is the mean over boxes of -Σ p log p
+with the shares p of the labels in a box.
 """
 
 from typing import NamedTuple
@@ -13,16 +15,16 @@ import numpy as np
 from ...arguments import check_count
 from ...linear_algebra import fit_line
 
-SIZES = range(2, 16)  # points along an edge of a box
+DISTANCES = np.arange(1, 16)  # points
 
 
 class Uncertainty(NamedTuple):
     """The uncertainty exponent of a map."""
 
-    value: float  # α; NaN where fewer than three box sizes have uncertain boxes
+    value: float  # α; NaN where labels differ at fewer than three distances
     error: float  # standard error of the slope, in which the size of the map is not included
-    sizes: np.ndarray  # points along an edge of a box, shape (k,)
-    uncertain: np.ndarray  # share of uncertain boxes, shape (k,)
+    distances: np.ndarray  # points along an axis, shape (k,)
+    uncertain: np.ndarray  # share of pairs at each distance with different labels, mean over the axes, shape (k,)
 
     def __repr__(self) -> str:
         return f"Uncertainty(α = {self.value:.3g} ± {self.error:.1g})"
@@ -35,11 +37,11 @@ class BasinEntropy(NamedTuple):
     boundary: float  # mean over the uncertain boxes; above log 2 the boundary is fractal; NaN for a single basin
 
 
-def check_map(labels: np.ndarray, size: int) -> np.ndarray:
-    """The numbers of the labels of a map; ValueError unless it has at least two boxes of a size along each axis."""
-    labels = np.asarray(labels)
-    if labels.ndim == 0 or min(labels.shape) < 2 * size:
-        raise ValueError(f"labels must be a map with two boxes of size = {size} along each axis, got {labels.shape}")
+def check_map(labels: np.ndarray, least: int) -> np.ndarray:
+    """The numbers of the labels of a map, without axes of one point; ValueError unless each other axis has `least`."""
+    labels = np.squeeze(np.asarray(labels))
+    if labels.ndim == 0 or min(labels.shape) < least:
+        raise ValueError(f"labels must be a map of at least {least} points along each axis, got {labels.shape}")
     if labels.dtype.kind not in "OUSbiu":
         raise ValueError(f"labels must be words or whole numbers, got the type {labels.dtype}")
     return np.unique(labels.astype(str), return_inverse=True)[1].reshape(labels.shape)
@@ -55,7 +57,7 @@ def shares_in_boxes(numbers: np.ndarray, size: int) -> np.ndarray:
 
 
 def uncertainty_exponent(labels: np.ndarray) -> Uncertainty:
-    """The uncertainty exponent of a map of labels, as from `basin`, over boxes of 2 to 15 points along an edge.
+    """The uncertainty exponent of a map of labels, as from `basin`, over distances of 1 to 15 points.
 
     labels : words or whole numbers on a grid of one, two or more axes, with at least 30 points along each
 
@@ -65,13 +67,14 @@ def uncertainty_exponent(labels: np.ndarray) -> Uncertainty:
     >>> round(uncertainty_exponent(np.hypot(x, y) < 200).value, 1)  # a smooth boundary
     1.0
     """
-    numbers, sizes = check_map(labels, SIZES[-1]), np.array(SIZES)
-    uncertain = np.array([(shares_in_boxes(numbers, size).max(axis=1) < 1.0).mean() for size in SIZES])
+    numbers = check_map(labels, 2 * int(DISTANCES[-1]))
+    axes = [np.moveaxis(numbers, axis, 0) for axis in range(numbers.ndim)]
+    uncertain = np.array([np.mean([(line[far:] != line[:-far]).mean() for line in axes]) for far in DISTANCES])
     some = uncertain > 0.0
     value = error = np.nan
     if some.sum() > 2:
-        value, _, error = fit_line(np.log(sizes[some]), np.log(uncertain[some]))
-    return Uncertainty(value, error, sizes, uncertain)
+        value, _, error = fit_line(np.log(DISTANCES[some]), np.log(uncertain[some]))
+    return Uncertainty(value, error, DISTANCES, uncertain)
 
 
 def basin_entropy(labels: np.ndarray, size: int = 20) -> BasinEntropy:
@@ -84,7 +87,10 @@ def basin_entropy(labels: np.ndarray, size: int = 20) -> BasinEntropy:
     BasinEntropy(value=0.138..., boundary=0.693...)
     """
     size = check_count("size", size, 1, 10**6)
-    shares = shares_in_boxes(check_map(labels, size), size)
+    try:
+        shares = shares_in_boxes(check_map(labels, 2 * size), size)
+    except ValueError as error:
+        raise ValueError(f"size = {size}: {error}") from None
     entropies = -np.sum(shares * np.log(np.where(shares > 0.0, shares, 1.0)), axis=1)
     uncertain = shares.max(axis=1) < 1.0
     return BasinEntropy(float(entropies.mean()), float(entropies[uncertain].mean()) if uncertain.any() else np.nan)

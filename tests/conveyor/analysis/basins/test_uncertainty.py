@@ -8,20 +8,28 @@ import pytest
 from conveyor.analysis.basins.uncertainty import basin_entropy, uncertainty_exponent
 
 
-def cantor(digits: int) -> np.ndarray:
-    """Whether the cells of length 3^-digits in [0, 1) belong to the middle-third Cantor set."""
-    return np.array(["1" not in np.base_repr(k, 3) for k in range(3**digits)])
+def gaps(x: np.ndarray) -> np.ndarray:
+    """Whether points lie in gaps of even or odd level of the middle-third Cantor set, which is the boundary."""
+    levels, inside, x = np.zeros(len(x), dtype=int), np.zeros(len(x), dtype=bool), x.copy()
+    for level in range(40):
+        digits = np.floor(3.0 * x)
+        x = 3.0 * x - digits
+        levels[~inside & (digits == 1)] = level % 2
+        inside |= digits == 1
+    return levels
+
+
+@pytest.mark.parametrize("count", [100, 300, 20_000])
+def test_exponent_of_a_cantor_set(count):
+    """The boundary has the dimension log 2/log 3, so that α = 1 - log 2/log 3 = 0.369."""
+    found = uncertainty_exponent(gaps((np.arange(count) + 0.5) / count))
+    assert found.value == pytest.approx(1.0 - math.log(2.0) / math.log(3.0), abs=0.04)
 
 
 def test_exponent_of_a_cantor_set_of_lines():
-    """The boundary has the dimension 1 + log 2/log 3, so that α = 1 - log 2/log 3 = 0.369."""
-    labels = np.repeat(cantor(8)[:, None], 32, axis=1)
-    found = uncertainty_exponent(labels)
-    assert found.value == pytest.approx(1.0 - math.log(2.0) / math.log(3.0), abs=0.03)
-
-
-def test_exponent_of_a_line_of_points():
-    assert uncertainty_exponent(cantor(10)).value == pytest.approx(1.0 - math.log(2.0) / math.log(3.0), abs=0.03)
+    """One more axis raises the dimension of boundary and map by one."""
+    labels = np.repeat(gaps((np.arange(300) + 0.5) / 300)[:, None], 300, axis=1)
+    assert uncertainty_exponent(labels).value == pytest.approx(1.0 - math.log(2.0) / math.log(3.0), abs=0.04)
 
 
 def test_noise_has_no_exponent_and_the_largest_entropy():
@@ -43,7 +51,7 @@ def test_words_count_as_numbers_do():
     assert basin_entropy(words, 8) == basin_entropy(numbers, 8)
 
 
-@pytest.mark.parametrize("labels", [1.0, [1, 2], np.zeros((40, 3), dtype=int), np.zeros((40, 40))])
+@pytest.mark.parametrize("labels", [1.0, [1, 2], np.zeros((40, 3), dtype=int), np.zeros((60, 60))])
 def test_maps_that_are_too_small_or_no_labels_are_named(labels):
     with pytest.raises(ValueError, match="labels must be"):
         uncertainty_exponent(labels)
