@@ -56,7 +56,7 @@ from .analysis.map_states import initial_states as initial_states, start_at as s
 from .analysis.attractors.labels import STATES as STATES, classify as classify
 from .analysis.attractors.identity import Attractor as Attractor, Attractors as Attractors
 from .interface import Basin as Basin, attractors as attractors, basin as basin
-from .analysis.basins.uncertainty import (
+from .analysis.basins.basin_uncertainty import (
     basin_entropy as basin_entropy,
     uncertainty_exponent as uncertainty_exponent,
 )

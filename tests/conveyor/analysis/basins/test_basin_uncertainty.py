@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from conveyor.analysis.basins.uncertainty import basin_entropy, uncertainty_exponent
+from conveyor.analysis.basins.basin_uncertainty import basin_entropy, uncertainty_exponent
 
 
 def gaps(x: np.ndarray) -> np.ndarray:
