@@ -119,7 +119,7 @@ def check_tolerance(tolerance: object, name: str = "tolerance") -> float:
 
 def check_limits(name: str, limits: object, parameter: str, value: float) -> tuple[float, float]:
     """The lowest and highest value of a parameter, on either side of a `value`; ValueError names the wrong one."""
-    if not isinstance(limits, (tuple, list, np.ndarray)) or np.shape(limits) != (2,):
+    if not isinstance(limits, (tuple, list, np.ndarray)) or len(limits) != 2:
         raise ValueError(f"{name} = {limits!r} must be the lowest and the highest {parameter}")
     (low, high), unit = RANGES[parameter], UNITS[parameter]
     return (

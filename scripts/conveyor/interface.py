@@ -47,9 +47,9 @@ def attractors(
 
     Examples
     --------
-    >>> attractors(Conveyor(acceleration=40.0), samples=64)
-    Attractor(second, period 1, share 0.953, 0.06515 m/s)
-    Attractor(first, period 1, share 0.0469, 0.03262 m/s)
+    >>> found = attractors(Conveyor(acceleration=40.0)).found
+    >>> [(one.state, one.period, round(one.share, 1)) for one in found]
+    [('second', 1, 0.6), ('first', 1, 0.4)]
     """
     row = check_row("conveyor", conveyor)
     samples = arguments.check_count("samples", samples, 1, arguments.MOST_CYCLES)

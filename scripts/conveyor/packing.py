@@ -178,7 +178,10 @@ def check_row(name: str, conveyor: object, start: Start = AT_REST) -> np.ndarray
         return pack(conveyor, start)
     if not isinstance(conveyor, (np.ndarray, np.void)):
         raise TypeError(f"{name} must be a Conveyor or a row of a table, got {conveyor!r}")
-    rows, shape = check_rows(conveyor)
+    try:
+        rows, shape = check_rows(conveyor)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}" if name != "parameters" else error) from None
     if shape not in ((), (1,)):
         raise ValueError(f"{name} must be one row of a table, got the shape {shape}")
     row = np.array(rows[0])

@@ -170,7 +170,7 @@ def simulate(
     >>> impacts = run.events[run.events["kind"] == "impact"]
     >>> phases, speeds = 2.0 * np.pi * (50.0 * impacts["time"] % 1.0), impacts["impact_speed"]  # the impact map
     >>> len(speeds), round(speeds[-1].item(), 3)  # m/s
-    (25, 0.12)
+    (25, 0.112)
     """
     check_type("conveyor", conveyor, Conveyor)
     check_type("start", start, Start)

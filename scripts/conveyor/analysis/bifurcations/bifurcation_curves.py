@@ -322,7 +322,7 @@ def continue_bifurcation(bifurcation: Bifurcation, parameter: str, limits: tuple
     >>> (doubling,) = continue_orbit(orbit, "acceleration", (49.0, 55.0)).bifurcations
     >>> curve = continue_bifurcation(doubling, "damping", (0.2, 0.4))
     >>> curve.acceleration[[0, -1]].round(2).tolist(), curve.damping[[0, -1]].round(2).tolist()  # m/s², N s/m
-    ([52.02, 56.86], [0.2, 0.4])
+    ([50.54, 58.97], [0.2, 0.4])
     """
     check_type("bifurcation", bifurcation, Bifurcation)
     check_choice("parameter", parameter, PATHS)

@@ -277,6 +277,8 @@ def periodic_orbit(
     transient = check_count("transient", transient, 0, MOST_CYCLES)
     several = isinstance(period, Iterable) and not isinstance(period, str)
     periods = [check_count("period", one, 1, LONGEST_PERIOD) for one in (period if several else [period])]
+    if not periods:
+        raise ValueError(f"period = {period!r} has no period to look for")
     if isinstance(start, Start):
         row = check_row("conveyor", conveyor, start)
         (state,) = stroboscopic_map.initial_states(row[None], ORBIT_TOLERANCE)
