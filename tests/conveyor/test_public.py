@@ -269,7 +269,7 @@ def test_attractors_of_one_conveyor_are_told_apart():
         labels = conveyor.classify(row, attractors=found)
         assert (labels.period == one.period).all()
         assert set(labels.attractor) == {found.found.index(one)}
-        runs = conveyor.sweep(row[:1], duration=24.0 * 8 / 50.0)
+        runs = conveyor.sweep(row[:1], duration=19.2)
         assert runs.mean_velocity[0] == pytest.approx(one.mean_velocity, abs=1e-4)
     frame = found.columns.to_frame()
     assert (frame.multiplier < 1.0).all()
