@@ -21,6 +21,8 @@ CALLS = {
         "paper/sweeps/shards",
     },
     "machine/operating/advice": {"machine/operating/transit"},
+    "machine/operating/bodies": {"machine/operating/transit"},
+    "machine/operating/start": {"machine/operating/transit"},
     "machine/contact/variants": {"machine/operating/transit"},
     "machine/operating/drift": {"machine/operating/transit"},
     "machine/operating/track": {"machine/operating/shares"},
