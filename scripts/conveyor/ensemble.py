@@ -24,7 +24,7 @@ from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
 from .solver import record, trajectory
 from .solver.arrivals import CYCLES, EVERY_CYCLE, ON_TRACK, SHARE
 from .solver.record import SAMPLES, VX, VZ, X, Z
-from .solver.status import OK, STATUS
+from .solver.status import NOT_FINITE, OK, STATUS
 
 NEEDS = ("feeding", "vertical")
 HORIZONTAL = ("mean_velocity", "x_end", "vx_end")
@@ -223,6 +223,7 @@ def sample_runs(
 
     for_each_chunk(work, len(rows), threads=threads, chunk=chunk, progress=progress)
     impact_speed, peak_force = peaks
+    codes[np.isnan(vx0) & (codes == OK)] = NOT_FINITE
     status = np.array(STATUS, dtype=object)[codes]
     return Columns(samples | {"impact_speed": impact_speed, "peak_force": peak_force, "status": status})
 

@@ -234,4 +234,6 @@ def test_a_table_depends_on_the_values_of_its_settings_but_not_on_their_declarat
 def test_the_library_knows_nothing_of_snakemake():
     for module in (source_hash.SCRIPTS / "conveyor").rglob("*.py"):
         _, imported = imports.direct_imports(module, source_hash.SCRIPTS)
-        assert not imported & {"snakemake", "conveyor_pipeline", "pandas", "pyarrow"}, module
+        # `to_frame` imports pandas when it is called.
+        frames = {"pandas"} if module.name == "columns.py" else set()
+        assert not imported & {"snakemake", "conveyor_pipeline", "pandas", "pyarrow"} - frames, module

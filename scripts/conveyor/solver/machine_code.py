@@ -27,7 +27,7 @@ if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
 
 SOLVER = Path(__file__).resolve().parent
 LIBRARY = SOLVER.parent
-SHARED = "arguments.py", "parameters.py"
+SHARED = "arguments.py", "parallel.py", "parameters.py", "progress.py"
 
 
 @cache
