@@ -20,6 +20,8 @@ def library(tmp_path, monkeypatch):
     files = {
         "parameters": "G = 9.81\n",
         "arguments": "G = 9.81\n",
+        "parallel": "G = 9.81\n",
+        "progress": "G = 9.81\n",
         "solver/contact": "W = 0\n",
         "analysis/orbits": "W = 1\n",
     }
