@@ -20,6 +20,7 @@ ABOVE_LETTERS = 0.02  # inch, of the height of a line of text
 UNITS = {
     "m/s²",
     "$g/\\omega^2$ and $g/\\omega$",
+    "$g\\,\\cos\\alpha/\\omega^2$",
     "m/s",
     "m",
     "mm",
