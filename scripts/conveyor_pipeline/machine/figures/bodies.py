@@ -84,6 +84,6 @@ def plot(*, bodies: pd.DataFrame, shapes: pd.DataFrame, landing: pd.DataFrame) -
     maps = below.subplots(1, 3, sharey=True)
     for axes, motion in zip(maps, MOTIONS, strict=True):
         draw_map(axes, shapes, motion)
-    maps[0].set_ylabel("height / length")
+    maps[0].set_ylabel("relative height (height / length)")
     style.letter(land, fast, ride, tilt, *maps)
     return figure
