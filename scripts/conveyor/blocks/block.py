@@ -113,8 +113,8 @@ class BlockRun:
         Returns
         -------
         dict of float64 arrays of the shape of `times`: x, z (m), vx, vz (m/s) of the centre, angle (rad) and spin
-        (rad/s); NaN after the point where a run ended early. At rest on the plate in its middle position, z is half of
-        the height.
+        (rad/s); NaN after the point where a run ended early. As in `start`, z is the height above that at rest on the
+        plate in its middle position, so that a block without tilt has the z of a point.
         """
         times = check_array("times", times, 0.0, self.duration, "s", least=0)
         # The run ends at its duration, so that the last step is the same for all times.

@@ -154,7 +154,8 @@ def follow(
     bodies, tilts : length and height (m), moment of inertia per mass (m²), shape (n, 3); initial angles (rad)
     tolerance : relative error per step of the contact
     times, since : s, ascending, shape (n, k); s from which statistics count, shape (n,)
-    samples : shape (n, k, 6), filled with the columns SAMPLES at the times; with distances, at the last time only
+    samples : shape (n, k, 6), filled with the columns SAMPLES at the times (z above that at rest); with distances, at
+        the last time only
     distances, arrivals : m, ascending, shape (d,); filled with the times (s) at which a centre is first there, (n, d)
     results : zeros of the shape (n, 10), filled with the columns above
     workspace : arrays to work in, of the shapes (4, 6), (7, 6) and (12, 4); the caller holds them
@@ -249,6 +250,7 @@ def follow(
                     interpolate(state, lapse, stages, after, share, between)
                 for k in range(STATE):
                     samples[i, int(result[SAMPLED]), k] = between[k]
+                samples[i, int(result[SAMPLED]), Z] -= body.half_height
                 result[SAMPLED] += 1.0
             furthest, skipped = max(furthest, after[X]), 0.0
             if t + lapse > due:

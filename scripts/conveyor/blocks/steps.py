@@ -146,18 +146,21 @@ def first_event(c, body, theta, state, length, stages, after, now, between):
         half = 0.5 * margin_of(margins, now, kind, i)
         if (kind == first_kind and i == corner) or guard(c, now, kind, i) >= -2.0 * half:
             continue
-        # The event is where the guard passes half of its margin, which it does not at the beginning of the step. A
-        # regula falsi (Illinois), whose interval shrinks from both ends.
-        low, high, at_high, side = 0.0, share, guard(c, now, kind, i) + half, 0
+        # The event is where the guard passes half of its margin, or the whole one if it begins beyond half of it: a
+        # corner that has just left the plate may still be that far below it. A regula falsi (Illinois), whose interval
+        # shrinks from both ends.
+        at_end = guard(c, now, kind, i)
         derive(c, body, theta, state, now, rates)
-        at_low = guard(c, now, kind, i) + half
+        at_begin = guard(c, now, kind, i)
+        level = half if at_begin > -half else 2.0 * half
+        low, high, at_low, at_high, side = 0.0, share, at_begin + level, at_end + level, 0
         for _ in range(MOST_TRIALS):
             middle = (low * at_high - high * at_low) / (at_high - at_low)
             if at_low <= 0.0 or high - low <= CLOSE or not low < middle < high:
                 break
             interpolate(state, length, stages, after, middle, between)
             derive(c, body, theta + c.omega * middle * length, between, now, rates)
-            value = guard(c, now, kind, i) + half
+            value = guard(c, now, kind, i) + level
             if value > 0.0:
                 low, at_low = middle, value
                 at_high *= 0.5 if side == 1 else 1.0

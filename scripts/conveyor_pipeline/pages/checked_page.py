@@ -4,6 +4,7 @@ import pandas as pd
 from scipy.stats import binomtest
 
 from conveyor_pipeline.common.templates import render
+from conveyor_pipeline.pages.flat_blocks import beside_points, compare_flat
 from conveyor_pipeline.study.accuracy.map_check import ACCEPTED, CLOSE, CYCLES, REPEATS, SIGNIFICANT, TOLERANCE
 
 ROUNDING = 1e-13  # smaller differences are rounding errors
@@ -19,8 +20,8 @@ def count_labels(points: pd.DataFrame) -> pd.DataFrame:
     return counts[["points", "near_boundary", "chaos", "different", "different_near"]].sum().reset_index()
 
 
-def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame) -> str:
-    """The page from its template, the table of quantities with a closed form, and the table of checked map points."""
+def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame, bodies: pd.DataFrame) -> str:
+    """The page from its template, with the tables of closed forms, of checked map points and of blocks."""
     different, points = int((map_check.label != map_check.state).sum()), len(map_check)
     values = {
         "theory": theory,
@@ -37,5 +38,7 @@ def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame) -> str:
         "confidence": CONFIDENCE,
         "largest_share": binomtest(different, points, alternative="less").proportion_ci(CONFIDENCE).high,
         "maps": count_labels(map_check),
+        "flat": compare_flat(bodies),
+        "beside": beside_points(bodies),
     }
     return render(template, values)

@@ -21,6 +21,7 @@ from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from conveyor_pipeline.machine.excitation import effects
 from conveyor_pipeline.machine.operating.populations import ENDS, POPULATIONS, differences
 from conveyor_pipeline.machine.operating.regimes import SEVERAL
+from conveyor_pipeline.pages.flat_blocks import compare_flat
 from conveyor_pipeline.paper.caption_numbers import fig10, moved_impacts
 from conveyor_pipeline.paper.caption_numbers.bifurcation import accumulation
 from conveyor_pipeline.paper.claims.about_proofs import lowest_fold, stable_motions
@@ -105,7 +106,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
     ----------
     tables : claims, errors and times of the scenes by the names SCENE and SCENE_times, edge, edge_euler, estimate,
         estimate_euler, on_plate, spectrum, cascade, certificates, certified_bifurcations, certified_chaos, fit,
-        moved, transit, lengths and drives
+        moved, transit, lengths, drives and bodies
     """
     claims = tables["claims"].set_index("id")
     first_error, second_error, right_readings = claims.paper_method["C22"]
@@ -132,6 +133,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         **summarize_speed(tables),
         **summarize_transit(tables["transit"], tables["lengths"], onset["accumulation"]),
         "clean": effects.statement_of(tables["drives"]),
+        "flat": compare_flat(tables["bodies"]),
     }
 
 

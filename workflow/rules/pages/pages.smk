@@ -23,7 +23,7 @@ COPIES = {
 # Inputs that fill the template of each page.
 PAGES = {
     "certificates": tables_of("orbits/certificates", "orbits/certified_bifurcations", "orbits/certified_chaos"),
-    "checked": tables_of("results/theory", "results/map_check"),
+    "checked": tables_of("results/theory", "results/map_check", "operating/bodies"),
     "tables": {},
 }
 # The tables behind the facts, by their roles in scripts/conveyor_pipeline/pages/facts.py.
@@ -45,6 +45,7 @@ FACTS = {
     "transit": table("operating/transit"),
     "lengths": table("operating/track_lengths"),
     "drives": table("excitation/clean_drive"),
+    "bodies": table("operating/bodies"),
 }
 KEPT_PAGES = ("README.md", "metadata.yaml", "codecheck.yml")
 ARTICLE_PARTS = {

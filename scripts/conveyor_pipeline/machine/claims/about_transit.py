@@ -7,6 +7,8 @@ from conveyor.linear_algebra import fit_line
 from conveyor_pipeline.machine.operating.regimes import BESIDE, CHAOS, SEVERAL
 from conveyor_pipeline.paper.claims.finding import NONE, Finding
 
+HIGHEST = 90.0  # m/s², the paper's largest amplitude; amplitudes above it do not decide about its statement
+
 
 def exponents(lengths: pd.DataFrame, regime: str) -> dict[float, float]:
     """The exponent of the relative spread over the length of the track, by the amplitude (m/s²), in a regime."""
@@ -38,16 +40,19 @@ def format_intervals(begin: pd.Series, end: pd.Series) -> str:
 
 def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame, regimes: pd.DataFrame) -> Finding:
     """Whether mean velocities in chaos depend on the initial conditions, and how the spread falls with the length."""
-    known = drift.dropna(subset=["velocity_1", "velocity_2"])
+    known = drift[drift.acceleration <= HIGHEST].dropna(subset=["velocity_1", "velocity_2"])
     apart = (known.velocity_1 - known.velocity_2).abs() / np.hypot(known.velocity_1_stderr, known.velocity_2_stderr)
     chaotic, coexisting = (exponents(lengths, regime) for regime in (CHAOS, SEVERAL))
-    farthest = max(chaotic.values(), key=lambda exponent: abs(exponent + 0.5), default=NONE)
+    within = {acceleration: exponent for acceleration, exponent in chaotic.items() if acceleration <= HIGHEST}
+    beyond = {acceleration: exponent for acceleration, exponent in chaotic.items() if acceleration > HIGHEST}
+    farthest = max(within.values(), key=lambda exponent: abs(exponent + 0.5), default=NONE)
+    groups = {"chaos": within, "coexisting motions": coexisting, "chaos beyond the paper's amplitudes": beyond}
     texts = [
         f"{name} at {', '.join(f'{acceleration:g} m/s² ({exponent:.2f})' for acceleration, exponent in powers.items())}"
-        for name, powers in (("chaos", chaotic), ("coexisting motions", coexisting))
+        for name, powers in groups.items()
         if powers
     ]
-    note = f"Exponents of the spread: {' and '.join(texts)}" if texts else "No exponent of the spread is known"
+    note = f"Exponents of the spread: {'; '.join(texts)}" if texts else "No exponent of the spread is known"
     if len(known):
         note += (
             f". The velocities are compared at {known.acceleration.min():g} to {known.acceleration.max():g} m/s², "

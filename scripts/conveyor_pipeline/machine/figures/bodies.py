@@ -43,7 +43,7 @@ def draw_map(axes: Axes, shapes: pd.DataFrame, motion: str) -> None:
             row.length, row.height, "s", color=colour, markerfacecolor=colour if right else "none", markersize=15.0
         )
         if np.isfinite(row.difference):
-            text = f"{100.0 * row.difference:+.0f}"
+            text = f"{100.0 * row.difference:+.0f}" if row.difference < 1.0 else f"×{1.0 + row.difference:.2g}"
             axes.text(
                 row.length, row.height, text, ha="center", va="center", color="white" if right else "black", fontsize=7
             )

@@ -19,7 +19,7 @@ def plot(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> Figure:
     """Draw one panel for each conveyor."""
     names = list(throws.conveyor.unique())
     rows = -(-len(names) // 2)
-    figure = style.figure(style.PAGE, 52.0 * rows + 12.0)
+    figure = style.figure(style.PAGE, 52.0 * rows + 17.0)
     panels = figure.subplots(rows, 2, sharex=True, squeeze=False)
     for axes, name in zip(panels.flat, names, strict=False):
         own = throws[throws.conveyor == name]
@@ -38,5 +38,5 @@ def plot(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> Figure:
     for axes in panels.flat[len(names) :]:
         axes.set_axis_off()
     handles = [Line2D([], [], **style.TEXTBOOK), *share_handles(throws)]
-    figure.legend(handles=handles, loc="outside upper center", ncols=min(len(handles), 8), columnspacing=1.0)
+    figure.legend(handles=handles, loc="outside upper center", ncols=-(-len(handles) // 2), columnspacing=1.0)
     return figure

@@ -12,7 +12,7 @@ from conveyor_pipeline.machine.operating.regimes import CHAOS
 
 COLOURS = {IDENTICAL: "#56B4E9", VARIED: "0.25"}
 LABELS = {IDENTICAL: "identical parts", VARIED: "varied parts"}
-MARKERS = ("o", "s")
+MARKERS = ("o", "s", "^")
 
 
 def populations_of(transit: pd.DataFrame) -> tuple[str, ...]:

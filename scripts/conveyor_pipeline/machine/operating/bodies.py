@@ -4,8 +4,6 @@ All lengths are in units of g cos α/ω². Parts are equal but for their shape, 
 track is short, so that parts which ride do not arrive: their velocity is that over the longest time.
 """
 
-import math
-
 import numpy as np
 import pandas as pd
 
@@ -15,12 +13,12 @@ from conveyor import (
     Start,
     block_transits,
     conveyor_and_start,
+    length_and_speed_units,
     plate_motion,
     simulate_block,
     throw_number,
     transits,
 )
-from conveyor.parameters import normal_gravity
 from conveyor_pipeline.common import fields
 from conveyor_pipeline.machine.operating.body_limits import (
     AMPLITUDES,
@@ -28,6 +26,7 @@ from conveyor_pipeline.machine.operating.body_limits import (
     MOTIONS,
     OF_A_CELL,
     PARTS,
+    POINTS,
     THROWS,
     TILT,
     TOLERANCE,
@@ -91,7 +90,7 @@ def measure(rows: np.ndarray, shape: tuple[float, float] | None, settings: dict,
     shape : length in units of g cos α/ω² and height over length
     """
     model, parts = settings["model"], settings["starts"]
-    unit = normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2
+    unit, _ = length_and_speed_units(rows[0])
     length, longest = TRACK * unit, LONGEST / model["frequency"]
     begin = time_of_drop(rows["frequency"], longest)
     options |= {"tolerance": TOLERANCE, "begin": begin}
@@ -129,14 +128,13 @@ def landing_of(row: np.ndarray, shape: tuple[float, float], cycles: np.ndarray) 
     row : a conveyor and an initial condition above the plate
     """
     conveyor, start = conveyor_and_start(row)
-    unit = normal_gravity({"gravity": conveyor.gravity, "inclination": conveyor.inclination})
-    unit /= (2.0 * math.pi * conveyor.frequency) ** 2
+    unit, _ = length_and_speed_units(conveyor)
     block = Block(shape[0] * unit, shape[0] * shape[1] * unit)
     run = simulate_block(conveyor, block, Start(start.z), tilt=TILT, duration=3.0 / conveyor.frequency)
 
     def corners(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         samples = run.sample(times)
-        centre = samples["z"] - 0.5 * block.height * np.cos(samples["angle"])
+        centre = samples["z"] + 0.5 * block.height * (1.0 - np.cos(samples["angle"]))
         lever = 0.5 * block.length * np.sin(samples["angle"])
         return centre - lever, centre + lever, plate_motion(conveyor, times)["z"], samples["angle"]
 
@@ -167,7 +165,9 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     cells = {**settings, "starts": max(4, round(effort * OF_A_CELL))}
     side = max(2, round(effort * CELLS))
     rows = population(np.array(list(MOTIONS.values())) / unit, cells, IDENTICAL)
-    points = [one["velocity_50"] for one in measure(rows, None, cells, **options)]
+    many = {**settings, "starts": max(4, round(effort * POINTS))}
+    reference = population(np.array(list(MOTIONS.values())) / unit, many, IDENTICAL)
+    points = [one["velocity_50"] for one in measure(reference, None, many, **options)]
     shapes = []
     for length in logarithmic(LENGTHS, side):
         for height in logarithmic(SLENDERNESS, side):
@@ -177,6 +177,6 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
                 difference = own["velocity_50"] / point - 1.0 if point else np.nan
                 shapes.append({"motion": motion, **own, "difference": difference})
     first = rows[list(MOTIONS).index("coexist") * cells["starts"]].copy()
-    first["psi0"], first["z0"] = LANDING_PHASE, 3.0 * normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2
+    first["psi0"], first["z0"] = LANDING_PHASE, 3.0 * length_and_speed_units(first)[0]
     landing = landing_of(first, SHAPES[0], OUTLINES)
     return {"bodies": table, "body_shapes": pd.DataFrame(shapes), "landing": landing}

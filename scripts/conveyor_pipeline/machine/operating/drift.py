@@ -24,7 +24,7 @@ CYCLES = 4096  # excitation cycles of each run
 FORGOTTEN = 200  # excitation cycles before the first sample, after which the transient has decayed
 RUN_FAILED = "a run failed"
 LENGTHS = (0.25, 0.5, 1.0, 2.0, 4.0)  # of tracks, in units of transit.length: shorter and longer than the user's
-OF_EACH_REGIME = 2  # amplitudes in the table of track lengths
+OF_EACH_REGIME = 3  # amplitudes in the table of track lengths
 TABLES = {
     "drift": (
         fields.number("acceleration", "m/s²", "amplitude at which all initial conditions end in chaos"),
