@@ -72,12 +72,21 @@ def check_numbers(name: str, values: object) -> np.ndarray:
         array = np.asarray(values)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name} must be an array of numbers: {error}") from None
-    if array.size and array.dtype.kind not in "iuf":
+    if array.dtype.kind not in "iuf" and (array.size or array.dtype.names):
         raise ValueError(f"{name} must be an array of numbers, got the type {array.dtype}")
     return array
 
 
-def check_array(name: str, values: object, low: float, high: float, unit: str = "", *, least: int = 1) -> np.ndarray:
+def check_array(
+    name: str,
+    values: object,
+    low: float,
+    high: float,
+    unit: str = "",
+    *,
+    least: int = 1,
+    may_be_nan: bool = False,
+) -> np.ndarray:
     """`values` as a float64 array; ValueError unless it has at least `least` values, all of them in [low, high]."""
     array = check_numbers(name, values)
     if not least <= array.size <= MOST_VALUES:
@@ -86,6 +95,8 @@ def check_array(name: str, values: object, low: float, high: float, unit: str = 
         numbers = np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
     # Compare in float64: in float32 a large bound becomes infinite.
     outside = ~((numbers >= low) & (numbers <= high))
+    if may_be_nan:
+        outside &= ~np.isnan(numbers)
     if outside.any():
         raise ValueError(f"{name} = {array[outside].flat[0]!s} is outside [{low:g}, {high:g}] {unit}".rstrip())
     return numbers
@@ -119,7 +130,7 @@ def check_tolerance(tolerance: object, name: str = "tolerance") -> float:
 
 def check_limits(name: str, limits: object, parameter: str, value: float) -> tuple[float, float]:
     """The lowest and highest value of a parameter, on either side of a `value`; ValueError names the wrong one."""
-    if not isinstance(limits, (tuple, list, np.ndarray)) or len(limits) != 2:
+    if not isinstance(limits, (tuple, list, np.ndarray)) or not np.iterable(limits) or len(limits) != 2:
         raise ValueError(f"{name} = {limits!r} must be the lowest and the highest {parameter}")
     (low, high), unit = RANGES[parameter], UNITS[parameter]
     return (

@@ -4,25 +4,27 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .arguments import (
     LONGEST,
+    PACKED,
     check_array,
     check_choice,
     check_count,
     check_flag,
-    check_numbers,
     check_threads,
     check_tolerance,
 )
 from .columns import Columns
 from .methods import fixed_step
-from .packing import check_rows
+from .packing import check_column, check_rows, copy_table
 from .parallel import for_each_chunk
 from .parameters import RANGES
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
 from .solver import record, trajectory
 from .solver.arrivals import CYCLES, EVERY_CYCLE, ON_TRACK, SHARE
+from .solver.model import Conveyor
 from .solver.record import SAMPLES, VX, VZ, X, Z
 from .solver.status import NOT_FINITE, OK, STATUS
 
@@ -62,9 +64,9 @@ def follow_by_steps(parameters, duration, step, method, feeding):
 
 
 def sweep(
-    parameters: np.ndarray,
+    parameters: Conveyor | np.ndarray,
     *,
-    duration: float | np.ndarray = 1.0,
+    duration: ArrayLike = 1.0,
     method: str = "event",
     tolerance: float = DEFAULT_TOLERANCE,
     step: float = DEFAULT_STEP,
@@ -133,11 +135,11 @@ def sweep(
 
 
 def sample_runs(
-    parameters: np.ndarray,
-    times: np.ndarray,
+    parameters: Conveyor | np.ndarray,
+    times: ArrayLike,
     *,
     columns: Sequence[str] = SAMPLES,
-    vx0: float | np.ndarray = 0.0,
+    vx0: ArrayLike = 0.0,
     method: str = "event",
     tolerance: float = DEFAULT_TOLERANCE,
     step: float = DEFAULT_STEP,
@@ -175,7 +177,7 @@ def sample_runs(
     """
     (rows, _), times = check_rows(parameters), check_array("times", times, 0.0, LONGEST, "s", least=0)
     if times.ndim != 2 or len(times) != len(rows):
-        raise ValueError(f"times must have the shape ({len(rows)}, k), got {times.shape}")
+        raise ValueError(f"times must have the shape ({len(rows)}, k), as parameters, got {times.shape}")
     if (np.diff(times) < 0.0).any():
         raise ValueError("times must ascend in each row")
     if not isinstance(columns, (list, tuple)):
@@ -184,14 +186,12 @@ def sample_runs(
         check_choice("columns", name, SAMPLES)
     _, tolerance, step = check_run(times.max(initial=np.finfo(np.float64).tiny), method, tolerance, step)
     check_flag("reuse", reuse)
+    check_flag("skip", skip)
     threads = check_threads(threads)
     check_count("chunk", chunk, 1, 10**9)
-    vx0 = check_numbers("vx0", vx0).astype(np.float64)
+    vx0 = check_array("vx0", vx0, *RANGES["vz0"], "m/s", least=0, may_be_nan=True)
     if vx0.shape not in ((), (len(rows),)):
         raise ValueError(f"vx0 has the shape {vx0.shape}, but there are {len(rows)} parts")
-    fastest = RANGES["vz0"][1]
-    if (np.abs(vx0) > fastest).any():
-        raise ValueError(f"vx0 must be at most {fastest:g} m/s in size, or NaN after a failed run")
     if method != "event" and vx0.any():
         raise ValueError(f"vx0: the method {method} begins at rest; use the method event")
     vx0 = np.full(len(rows), vx0)
@@ -228,10 +228,10 @@ def sample_runs(
     return Columns(samples | {"impact_speed": impact_speed, "peak_force": peak_force, "status": status})
 
 
-def restart(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, duration: float | np.ndarray) -> np.ndarray:
+def restart(parameters: Conveyor | np.ndarray, z_end: ArrayLike, vz_end: ArrayLike, duration: ArrayLike) -> np.ndarray:
     """The table of trajectories that continue runs of `parameters`.
 
-    z_end, vz_end : where the runs ended, m and m/s, in the shape of `parameters`
+    z_end, vz_end : where the runs ended, m and m/s, in the shape of `parameters`; NaN for a run that failed
     duration : of the runs, s, a number or an array
 
     Examples
@@ -241,20 +241,20 @@ def restart(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, durat
     >>> restart(parameters, runs.z_end, runs.vz_end, 0.5)["psi0"].tolist()  # after 25 cycles
     [0.0, 0.0]
     """
-    later = parameters.copy()
-    cycles = parameters["frequency"] * duration
-    later["psi0"] = (parameters["psi0"] + 2.0 * math.pi * (cycles - np.floor(cycles))) % (2.0 * math.pi)
-    later["z0"] = z_end
-    later["vz0"] = vz_end
+    later = copy_table(parameters)
+    cycles = later["frequency"] * check_column("duration", duration, later.shape, 0.0, LONGEST)
+    later["psi0"] = (later["psi0"] + 2.0 * math.pi * (cycles - np.floor(cycles))) % (2.0 * math.pi)
+    for name, of_end, ends in (("z0", "z_end", z_end), ("vz0", "vz_end", vz_end)):
+        later[name] = check_column(of_end, ends, later.shape, *PACKED[name], may_be_nan=True)
     return later
 
 
 def transits(
-    parameters: np.ndarray,
-    lengths: np.ndarray,
-    longest: np.ndarray,
+    parameters: Conveyor | np.ndarray,
+    lengths: ArrayLike,
+    longest: ArrayLike,
     *,
-    begin: np.ndarray,
+    begin: ArrayLike,
     tolerance: float = DEFAULT_TOLERANCE,
     threads: int = 1,
     progress: str | None = None,

@@ -83,15 +83,16 @@ def material(name: str) -> Material:
     >>> round(polyurethane.modulus / 1e6, 1), polyurethane.poisson  # MPa
     (13.2, 0.5)
     """
-    if name in materials():
+    known = isinstance(name, str)
+    if known and name in materials():
         return materials()[name]
-    found = SHORE.fullmatch(name) if isinstance(name, str) else None
+    found = SHORE.fullmatch(name) if known else None
     if not found:
-        raise ValueError(f"material = {name!r} is not one of {', '.join(materials())}, or such as {ELASTOMERS[0]}_60A")
+        raise ValueError(f"name = {name!r} is not one of {', '.join(materials())}, or such as {ELASTOMERS[0]}_60A")
     hardness, scale = int(found[2]), found[3]
     least, most = HARDNESS[scale]
     if not least <= hardness <= most:
-        raise ValueError(f"material = {name!r} must have a hardness Shore {scale} from {least} to {most}")
+        raise ValueError(f"name = {name!r} must have a hardness Shore {scale} from {least} to {most}")
     modulus = shore_modulus(hardness, scale)
     low, high = (factor * modulus for factor in UNCERTAINTY)
     source = "Gent (1958)" if scale == "A" else "Qi, Joyce and Boyce (2003)"
@@ -142,6 +143,6 @@ def hertz_stiffness(part: Any, lining: Any, radius: float) -> float:
     low, high = RANGES["stiffness"]
     if not low <= stiffness <= high:
         raise ValueError(
-            f"radius = {radius!r} m gives a stiffness of {stiffness:g} N/m^1.5, outside [{low:g}, {high:g}]"
+            f"part, lining and radius = {radius!r} m give {stiffness:g} N/m^1.5, outside [{low:g}, {high:g}]"
         )
     return stiffness

@@ -9,10 +9,21 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arguments import HIGH, LOW, MAY_BE_NAN, check_numbers, check_parameters, check_type
+from .arguments import (
+    HIGH,
+    LOW,
+    MAY_BE_NAN,
+    PACKED,
+    STATES,
+    check_array,
+    check_choice,
+    check_numbers,
+    check_parameters,
+    check_type,
+)
 from .columns import Columns
 from .elementary import cos, sin
-from .parameters import DEFAULT_TOLERANCE, HARMONIC, PARAMETERS, TENSION_MODES, UNITS
+from .parameters import DEFAULT_TOLERANCE, HARMONIC, PARAMETERS, RANGES, TENSION_MODES, UNITS
 from .solver import contact, plate
 from .solver.jit import compiled
 from .solver.model import (
@@ -20,6 +31,8 @@ from .solver.model import (
     ANGLE,
     FREQUENCY,
     FRICTION,
+    GRAVITY,
+    MASS,
     PHASE_SHIFT,
     STATIC_FRICTION,
     TENSION,
@@ -77,11 +90,11 @@ def parameter_table(conveyor: Conveyor, start: Start = AT_REST, **values: ArrayL
     return replace_parameters(table, **arrays)
 
 
-def replace_parameters(parameters: np.ndarray, **values: ArrayLike) -> np.ndarray:
-    """A copy of a table, or of a row, with new `values` of some parameters; tension is a word or an array of words.
+def replace_parameters(parameters: Conveyor | np.ndarray, **values: ArrayLike) -> np.ndarray:
+    """A copy of a table, a row, or a Conveyor as a row, with new `values` of some parameters.
 
-    A new friction without a new static_friction is the static friction, too. ValueError for a static_friction below
-    friction.
+    tension is a word or an array of words. A new friction without a new static_friction is the static friction, too.
+    ValueError for a value out of range, or a static_friction below friction.
 
     Examples
     --------
@@ -89,11 +102,13 @@ def replace_parameters(parameters: np.ndarray, **values: ArrayLike) -> np.ndarra
     >>> table["static_friction"].tolist()
     [0.2, 0.2]
     """
-    table = np.array(parameters)
+    table = copy_table(parameters)
     for name, column in values.items():
         if name == "tension":
-            column = np.vectorize(TENSION_MODES.index, otypes=[np.float64])(column)
-        table[name] = column
+            column = np.vectorize(tension_code, otypes=[np.float64])(column)
+        elif name not in RANGES:
+            raise TypeError(f"{name} is not one of {', '.join(PARAMETERS)}")
+        table[name] = check_column(name, column, table.shape, *PACKED[name], may_be_nan=name in STATES)
     if "friction" in values and "static_friction" not in values:
         table["static_friction"] = table["friction"]
     for row in table[table["static_friction"] < table["friction"]].flat[:1]:
@@ -101,7 +116,7 @@ def replace_parameters(parameters: np.ndarray, **values: ArrayLike) -> np.ndarra
     return table
 
 
-def conveyor_and_start(parameters: np.ndarray) -> tuple[Conveyor, Start]:
+def conveyor_and_start(parameters: Conveyor | np.ndarray) -> tuple[Conveyor, Start]:
     """The conveyor and the initial condition of one row of a table, with a number for static_friction in every case.
 
     Examples
@@ -110,7 +125,32 @@ def conveyor_and_start(parameters: np.ndarray) -> tuple[Conveyor, Start]:
     >>> conveyor.acceleration, start.z
     (40.0, 0.0001)
     """
-    return unpack(as_rows(parameters))
+    return unpack(check_row("parameters", parameters))
+
+
+def copy_table(parameters: object) -> np.ndarray:
+    """A copy of a table or a row, or the row of a Conveyor; TypeError for anything else."""
+    if isinstance(parameters, Conveyor):
+        return as_table(pack(parameters, AT_REST))
+    if (getattr(getattr(parameters, "dtype", None), "names", None) or ())[: len(PARAMETERS)] != PARAMETERS:
+        raise TypeError(f"parameters must be a table from parameter_table or a Conveyor, got {parameters!r}")
+    return np.array(parameters)
+
+
+def check_column(
+    name: str, values: object, shape: tuple[int, ...], low: float, high: float, *, may_be_nan: bool = False
+) -> np.ndarray:
+    """`values` in the shape of a table; ValueError for another shape, or a number outside [low, high]."""
+    column = check_array(name, values, low, high, UNITS.get(name, ""), least=0, may_be_nan=may_be_nan)
+    try:
+        return np.broadcast_to(column, shape)
+    except ValueError:
+        raise ValueError(f"{name} has the shape {column.shape}, but parameters have the shape {shape}") from None
+
+
+def tension_code(word: str) -> int:
+    """The position of a word in TENSION_MODES; ValueError for an unknown one."""
+    return TENSION_MODES.index(check_choice("tension", word, TENSION_MODES))
 
 
 def as_rows(parameters: np.ndarray) -> np.ndarray:
@@ -190,10 +230,21 @@ def check_row(name: str, conveyor: object, start: Start = AT_REST) -> np.ndarray
     return row
 
 
-def one_row(parameters: object) -> np.ndarray:
-    """The numbers of a Conveyor, or of a row of a table; packed numbers are not checked again."""
-    packed = isinstance(parameters, np.ndarray) and parameters.dtype == np.float64 and parameters.ndim == 1
-    return parameters if packed and len(parameters) >= len(PARAMETERS) else check_row("parameters", parameters)
+def conveyor_of(conveyor: object, start: Start) -> tuple[Conveyor, Start]:
+    """A Conveyor and its start, or those of a row of a table, see `check_row`."""
+    if not isinstance(conveyor, Conveyor):
+        return unpack(check_row("conveyor", conveyor, start))
+    check_type("start", start, Start)
+    return conveyor, start
+
+
+def one_row(conveyor: object) -> np.ndarray:
+    """The numbers of a Conveyor, or of a row of a table; the ranges of packed numbers are not checked again."""
+    if isinstance(conveyor, np.ndarray) and conveyor.dtype == np.float64 and conveyor.ndim == 1:
+        numbers = conveyor[:TENSION]
+        if len(numbers) == TENSION and np.isfinite(numbers).all() and (numbers[[FREQUENCY, MASS, GRAVITY]] > 0.0).all():
+            return conveyor
+    return check_row("conveyor", conveyor)
 
 
 def place_of(row: int, shape: tuple[int, ...]) -> str:

@@ -46,6 +46,8 @@ def progress_bar(items=None, *, total: int | None = None, label: str | None, uni
     >>> [2 * number for number in progress_bar([1, 2, 3], label=None)]
     [2, 4, 6]
     """
+    if not isinstance(label, str | None):
+        raise TypeError(f"progress = {label!r} must be the label of the bar, a str, or None")
     options = {"desc": label, "unit": f" {unit}", "disable": label is None, "file": sys.stderr}
     if sys.stderr.isatty():
         return tqdm(items, total=total, mininterval=SECONDS, dynamic_ncols=True, **options)

@@ -5,9 +5,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .arguments import check_array, check_choice, check_flag, check_number, check_time, check_tolerance, check_type
+from .arguments import check_array, check_choice, check_flag, check_number, check_time, check_tolerance
 from .methods import fixed_step
+from .packing import AT_REST, conveyor_of
 from .parameters import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST
 from .solver import trajectory
 from .solver.model import Conveyor, Start, pack, plate_motion
@@ -16,7 +18,17 @@ from .solver.status import OK, STATUS
 
 EVENT_STATE = ("x", "vx", "z", "vz", "impact_speed")
 METHODS = ("event", *fixed_step.METHODS)
+SMALLEST_SHARE = 1e-6  # of a run, over which a mean velocity is taken
 MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
+
+
+def mean_velocity(run, last: float = LAST) -> float:
+    """Mean feeding velocity over the last part of a run, (x(T) - x((1 - last) T)) / (last T), m/s (Sect. 3.1)."""
+    last = check_number("last", last, SMALLEST_SHARE, 1.0)
+    x_before = run.x_last
+    if last != LAST:
+        x_before = float(run.sample(np.array([(1.0 - last) * run.duration]))["x"][0])
+    return (run.x_end - x_before) / (last * run.duration)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,15 +75,9 @@ class Run:
         how = self.method if self.method == "event" else f"{self.method}, step {self.step:g} s"
         return f"Run({self.duration:g} s, {how}; {self.status}, {self.impacts} impacts)"
 
-    def mean_velocity(self, last: float = LAST) -> float:
-        """Mean feeding velocity over the last part of the run, (x(T) - x((1 - last) T)) / (last T), m/s (Sect. 3.1)."""
-        last = check_number("last", last, 0.0, 1.0, above=True)
-        x_before = self.x_last
-        if last != LAST:
-            x_before = float(self.sample(np.array([(1.0 - last) * self.duration]))["x"][0])
-        return (self.x_end - x_before) / (last * self.duration)
+    mean_velocity = mean_velocity
 
-    def sample(self, times: np.ndarray) -> dict[str, np.ndarray]:
+    def sample(self, times: ArrayLike) -> dict[str, np.ndarray]:
         """The motion at `times` (s, any shape and order, within the run); of a fixed-step method, at the nearest step.
 
         Returns
@@ -136,8 +142,8 @@ def check_run(duration: float, method: str, tolerance: float, step: float) -> tu
 
 
 def simulate(
-    conveyor: Conveyor,
-    start: Start = Start(),  # noqa: B008 - immutable
+    conveyor: Conveyor | np.ndarray,
+    start: Start = AT_REST,
     *,
     duration: float = 1.0,
     method: str = "event",
@@ -149,7 +155,8 @@ def simulate(
 
     Parameters
     ----------
-    conveyor, start : see model.Conveyor and model.Start
+    conveyor : a Conveyor, or a row of a table, whose initial condition is the default of `start`
+    start : see model.Start
     duration : s, above 0 and up to 1e6
     method : "event" for the exact event loop, or one of fixed_step: "euler" (the paper's), "semi_implicit_euler", "rk4"
     tolerance : relative error per Taylor step, 1e-14 to 1e-2; used by "event"
@@ -172,8 +179,7 @@ def simulate(
     >>> len(speeds), round(speeds[-1].item(), 3)  # m/s
     (25, 0.112)
     """
-    check_type("conveyor", conveyor, Conveyor)
-    check_type("start", start, Start)
+    conveyor, start = conveyor_of(conveyor, start)
     duration, tolerance, step = check_run(duration, method, tolerance, step)
     check_flag("reuse", reuse)
     parameters = pack(conveyor, start)

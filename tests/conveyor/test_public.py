@@ -21,13 +21,13 @@ import conveyor
 from conveyor import Conveyor, Start, columns, parameter_table, simulation
 from conveyor.analysis.attractors import sampling, search
 from conveyor.analysis.chaos import lyapunov
-from conveyor.parameters import PARAMETERS, RANGES
+from conveyor.parameters import DEFAULT_TOLERANCE, PARAMETERS, RANGES
 from conveyor_pipeline.common import fields
 
 ODD = (
     *(float("nan"), float("inf"), -float("inf"), None, 1e308, -1e308, -1, 0, 10**30, 1e-308, True, 1j),
     *(np.timedelta64(3, "s"), np.float32(0.25), np.longdouble(0.25)),
-    *("", "event", "conveyor", b"x", [], {}, (), object()),
+    *("", "event", "conveyor", b"x", [], {}, (), object(), np.ma.masked, 5e-324),
     *(
         np.array([]),
         np.array([np.nan, 1.0]),
@@ -35,6 +35,7 @@ ODD = (
         np.array(["a"]),
         np.array([None]),
         [[1.0], [1.0, 2.0]],
+        np.zeros(0, [("z0", float)]),
     ),
 )
 CONVEYOR = Conveyor(static_friction=0.15)
@@ -63,17 +64,31 @@ FUNCTIONS = {
     "continue_bifurcation": {"parameter": "damping", "limits": (0.29, 0.31)},
     "bifurcation_diagram": {"parameters": TABLE, "transient": 2, "strobes": 2, "tolerance": 1e-8},
     "initial_states": {"parameters": TABLE, "tolerance": 1e-8},
-    "strobes": {"parameters": TABLE[0], "cycles": 3, "tolerance": 1e-8},
+    "strobes": {"conveyor": TABLE[0], "cycles": 3, "tolerance": 1e-8},
     "start_at": {"parameters": TABLE, "states": np.zeros((2, 2)), "tolerance": 1e-8},
-    "groups_of": {"parameters": TABLE[0]},
-    "amplitude_of": {"parameters": TABLE[0], "ratio": 1.0},
-    "length_and_speed_units": {"parameters": TABLE[0]},
+    "groups_of": {"conveyor": TABLE[0]},
+    "amplitude_of": {"conveyor": TABLE[0], "ratio": 1.0},
+    "length_and_speed_units": {"conveyor": TABLE[0]},
     "uncertainty_exponent": {"labels": np.arange(1600).reshape(40, 40) % 7},
     "basin_entropy": {"labels": np.arange(1600).reshape(40, 40) % 7, "size": 4},
     "find_attractors": {"parameters": TABLE, "cycles": 10, "orbits": True, "tolerance": 1e-8, "threads": 1},
     "lyapunov_spectrum_on_attractors": {"parameters": TABLE, "cycles": 5, "blocks": 2, "tolerance": 1e-8, "threads": 1},
     "lyapunov_spectrum": {"parameters": TABLE, "states": np.zeros((2, 2)), "transient": 10, "cycles": 5, "blocks": 2}
     | {"tolerance": 1e-8, "threads": 1},
+    "replace_parameters": {"parameters": TABLE, "acceleration": 40.0, "vz0": 0.0, "friction": 0.1, "tension": "clip"},
+    "conveyor_and_start": {"parameters": TABLE[0]},
+    "restart": {"parameters": TABLE, "z_end": [0.0, 1e-4], "vz_end": [0.0, 0.1], "duration": 0.5},
+    "plate_motion": {"conveyor": Conveyor(), "times": [0.0, 0.1]},
+    "harmonic_spectrum": {"samples": np.arange(8.0), "duration": 0.02},
+    "windowed_spectrum": {"samples": np.arange(8.0), "duration": 0.02},
+    "throw_number": {"acceleration": [40.0, 60.0], "angle": 0.2, "gravity": 9.81, "inclination": 0.0, "harmonics": ()},
+    "throw_velocity": {"acceleration": [40.0, 60.0], "angle": 0.2, "gravity": 9.81, "inclination": 0.0}
+    | {"frequency": 50.0, "phase_shift": 0.0},
+    "find_doubled_orbit": {},
+    "doubling_cascade": {},
+    "doubling_ratios": {"amplitudes": [54.2, 61.2, 62.4, 62.7]},
+    "accumulation_point": {"amplitudes": [54.2, 61.2, 62.4, 62.7]},
+    "material": {"name": "steel"},
     "Block": {"length": 5e-3, "height": 1e-3, "inertia": 1e-6},
     "simulate_block": {"conveyor": Conveyor(), "block": conveyor.Block(5e-3, 1e-3), "start": Start(), "tilt": 0.01}
     | {"duration": 0.02, "tolerance": 1e-8},
@@ -81,7 +96,7 @@ FUNCTIONS = {
     | {"longest": 0.05, "begin": [0.01, 0.01], "tolerance": 1e-8, "threads": 1},
     "periodic_orbit": {"conveyor": Conveyor(), "start": Start(), "period": 1, "transient": 10},
     "continue_orbit": {"parameter": "acceleration", "limits": (39.99, 40.01)},
-    "basin": {"conveyor": Conveyor(), "z": [0.0, 1e-4], "vz": 0.0, "cycles": 10, "tolerance": 1e-8, "threads": 1},
+    "basin": {"conveyor": Conveyor(), "z": [0.0, 1e-4], "vz": 0.0, "cycles": 400, "tolerance": 1e-8, "threads": 1},
     "box_dimension": {"points": POINTS},
     "correlation_dimension": {"points": POINTS, "theiler": 0},
     "Conveyor": {name: getattr(CONVEYOR, name) for name in (*NUMBERS, "tension")},
@@ -120,6 +135,14 @@ def doubling():
     return conveyor.continue_orbit(orbit, "acceleration", (54.1, 54.3)).bifurcations[0]
 
 
+@functools.cache
+def second_doubling():
+    """The period doubling of the doubled orbit."""
+    doubled = conveyor.find_doubled_orbit(doubling())
+    branch = conveyor.continue_orbit(doubled, "acceleration", (doubled.acceleration, 62.0))
+    return next(one for one in branch.bifurcations if one.kind == "period_doubling")
+
+
 def function_of(name):
     """One of FUNCTIONS."""
     return SECOND_DOOR[name] if name in SECOND_DOOR else getattr(conveyor, name)
@@ -128,6 +151,8 @@ def function_of(name):
 def arguments_of(name, orbit):
     """The arguments of one of FUNCTIONS."""
     more = {"continue_orbit": {"orbit": orbit}, "continue_bifurcation": {"bifurcation": doubling()}}
+    more |= {"find_doubled_orbit": {"bifurcation": doubling()}}
+    more |= {"doubling_cascade": {"first": doubling(), "second": second_doubling()}}
     return FUNCTIONS[name] | more.get(name, {})
 
 
@@ -399,7 +424,7 @@ def test_attractors_of_long_periods_are_found():
     row = parameter_table(Conveyor(acceleration=50.0, damping=0.1))
     found = search.find_attractors(row, cycles=400)
     samples = sampling.sampled_initial_conditions(row)
-    starts = conveyor.start_at(np.repeat(conveyor.replace_parameters(row, psi0=-np.pi)[None], 32), samples, 1e-10)
+    starts = conveyor.start_at(np.repeat(conveyor.replace_parameters(row, psi0=-np.pi)[None], 32), samples)
     labels = conveyor.classify(starts, cycles=400, exponents=False)
     assert set(labels.period[labels.period > 0]) <= set(found.orbits.periods.tolist())
     assert sorted(found.orbits.periods.tolist()).count(12) == 1
@@ -409,6 +434,40 @@ def test_attractors_of_long_periods_are_found():
     assert (known.period[converged] == labels.period[converged]).all()
 
 
+def test_diagrams_of_several_lines_are_those_of_each_line():
+    table = parameter_table(Conveyor(), damping=[[0.2], [0.3]], acceleration=[50.0, 57.0, 80.0], z0=3e-4)
+    options = {"transient": 100, "strobes": 3}
+    both = conveyor.bifurcation_diagram(table, threads=2, **options)
+    for k in range(2):
+        alone = conveyor.bifurcation_diagram(table[k], **options)
+        assert all((both[name][k] == alone[name]).all() for name in alone)
+    assert both.delta.shape == (2, 3, 3) and both.status.shape == (2, 3)
+
+
+def test_a_row_of_a_table_may_stand_for_its_conveyor():
+    row = parameter_table(Conveyor(acceleration=50.0), z0=[0.0, 3e-4])[1]
+    same = Conveyor(acceleration=50.0, static_friction=0.15)
+    run = conveyor.simulate(row, duration=0.1)
+    assert (run.conveyor, run.start) == (same, Start(3e-4))
+    assert run == conveyor.simulate(same, Start(3e-4), duration=0.1)
+    assert conveyor.simulate_block(row, conveyor.Block(5e-3, 1e-3), duration=0.02).start == Start(3e-4)
+    assert conveyor.conveyor_and_start(Conveyor()) == (CONVEYOR, Start())
+    assert conveyor.replace_parameters(Conveyor(), acceleration=50.0)["acceleration"] == 50.0
+
+
+def test_signatures_have_one_style():
+    """Functions of tables take tolerance, threads and progress, by name, with the same defaults."""
+    defaults = {"tolerance": DEFAULT_TOLERANCE, "threads": 1, "progress": None}
+    blocks = {"simulate_block", "block_transits"}  # which have a tolerance of their own
+    for name in conveyor.__all__:
+        function = getattr(conveyor, name)
+        given = inspect.signature(function).parameters if inspect.isfunction(function) else {}
+        for option in defaults.keys() & given.keys():
+            assert given[option].kind == inspect.Parameter.KEYWORD_ONLY, (name, option)
+            assert given[option].default == defaults[option] or name in blocks, (name, option)
+        assert ("threads" in given) <= ("progress" in given), name
+
+
 INTERRUPTED = """
 import os, signal, threading, numpy as np
 from conveyor import *
@@ -416,9 +475,12 @@ signal.signal(signal.SIGINT, signal.default_int_handler)  # shells let backgroun
 table = parameter_table(Conveyor(), acceleration=[80.0, 81.0], z0=3e-4)
 calls = {
     "bifurcation_diagram": lambda n: bifurcation_diagram(table, transient=n, strobes=2, tolerance=1e-10),
-    "strobes": lambda n: strobes(table[0], n, 1e-10),
+    "strobes": lambda n: strobes(table[0], n),
     "periodic_orbit": lambda n: periodic_orbit(Conveyor(acceleration=80.0), transient=n),
     "lyapunov_spectrum": lambda n: lyapunov_spectrum(table, transient=n, cycles=5, blocks=2),
+    "classify": lambda n: classify(table, cycles=10 * n, exponents=False),
+    "euler": lambda n: simulate(Conveyor(), duration=1e-3 * n, method="euler"),
+    "block": lambda n: simulate_block(Conveyor(), Block(5e-3, 1e-3), duration=1e-3 * n),
 }
 for name, call in calls.items():
     call(10)
@@ -436,7 +498,7 @@ def test_an_interrupt_stays_one():
         [sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=True, env=ENVIRONMENT
     )
     assert {line.split()[1] for line in run.stdout.splitlines()} == {"KeyboardInterrupt"}, run.stdout
-    assert len(run.stdout.splitlines()) == 4
+    assert len(run.stdout.splitlines()) == 7
 
 
 def test_every_name_can_be_looked_up_without_extras():

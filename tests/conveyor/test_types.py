@@ -12,8 +12,7 @@ import conveyor
 PROGRAM = """
 import numpy as np
 
-from conveyor import Branch, Columns, Conveyor, Orbit, Run, Start, attractors, basin, classify, continue_bifurcation
-from conveyor import continue_orbit, parameter_table, periodic_orbit, simulate, sweep
+from conveyor import *
 
 run: Run = simulate(Conveyor(acceleration=40.0), Start(z=3e-4), duration=1.0)
 velocity: float = run.mean_velocity()
@@ -26,6 +25,22 @@ assert orbit is not None
 branch: Branch = continue_orbit(orbit, "damping", (0.2, 0.4))
 curve = continue_bifurcation(branch.bifurcations[0], "mass", (6e-4, 8e-4))
 found = basin(Conveyor(), [0.0, 1e-4], 0.0).attractors.found[0].share
+# Lists stand for arrays, and a Conveyor and rows for each other.
+wavy = Conveyor(harmonics=[{"order": 2, "normal": 0.1}, Harmonic(3)])
+xs: np.ndarray = simulate(table[0], duration=1.0).sample([0.0, 0.1])["x"]
+plate_motion(*conveyor_and_start(replace_parameters(wavy, tension="clip"))[:1], [0.0, 0.1])
+diagram: Columns = bifurcation_diagram(table, strobes=2, threads=2)
+sweep(wavy, duration=[1.0, 2.0]).to_frame()
+sample_runs(table, [[0.0, 0.1], [0.0, 0.1]], columns=["x"])
+transits(table, [0.1], [1.0], begin=0.0)
+block_transits(table, Block(5e-3, 1e-3), [0.0, 0.1], length=0.1, longest=1.0, begin=[0.0, 0.0])
+start_at(table, restart(table, runs.z_end, runs.vz_end, 0.5)["z0"])
+windowed_spectrum([1.0, 2.0], 0.02).amplitude.max()
+ratios: np.ndarray = doubling_ratios([one.orbit.acceleration for one in branch.bifurcations])
+continue_orbit(orbit, "damping", [0.2, 0.4])
+periodic_orbit(wavy, [-5e-4, 0.02])
+lyapunov_spectrum(wavy, strobes(wavy, 1))
+dimension: Dimension = box_dimension([[0.0, 1.0]])
 """
 
 

@@ -3,6 +3,11 @@
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arguments import LARGEST_COORDINATE, LONGEST, check_array, check_number
+
+SHORTEST = 1e-12  # s, of a signal
 
 
 class AmplitudeSpectrum(NamedTuple):
@@ -18,7 +23,7 @@ class AmplitudeSpectrum(NamedTuple):
     amplitude: np.ndarray
 
 
-def harmonic_spectrum(samples: np.ndarray, duration: float) -> AmplitudeSpectrum:
+def harmonic_spectrum(samples: ArrayLike, duration: float) -> AmplitudeSpectrum:
     """Spectrum of a settled orbit from n equidistant samples over whole periods, t = 0, T/n, … (T = `duration`, s).
 
     No window and no leakage: every harmonic and subharmonic below n / (2T) falls on a bin. ValueError if the samples
@@ -35,7 +40,7 @@ def harmonic_spectrum(samples: np.ndarray, duration: float) -> AmplitudeSpectrum
     return one_sided(samples, duration, len(samples))
 
 
-def windowed_spectrum(samples: np.ndarray, duration: float) -> AmplitudeSpectrum:
+def windowed_spectrum(samples: ArrayLike, duration: float) -> AmplitudeSpectrum:
     """Spectrum of any other motion from n equidistant samples over `duration` (s), with a Hann window.
 
     Amplitudes are divided by the window's mean, so that a line on a bin has its true height; one half-way between
@@ -58,17 +63,17 @@ def windowed_spectrum(samples: np.ndarray, duration: float) -> AmplitudeSpectrum
     return spectrum
 
 
-def check(samples: np.ndarray) -> np.ndarray:
+def check(samples: ArrayLike) -> np.ndarray:
     """The samples as float64; ValueError unless they are finite, one-dimensional and at least two."""
-    samples = np.asarray(samples, dtype=np.float64)
-    if samples.ndim != 1 or len(samples) < 2 or not np.isfinite(samples).all():
-        raise ValueError(f"samples must be finite and of shape (n,) with n >= 2, got shape {samples.shape}")
+    samples = check_array("samples", samples, -LARGEST_COORDINATE, LARGEST_COORDINATE, least=2)
+    if samples.ndim != 1:
+        raise ValueError(f"samples must have the shape (n,), got {samples.shape}")
     return samples
 
 
 def one_sided(samples: np.ndarray, duration: float, gain: float) -> AmplitudeSpectrum:
     """Amplitudes |Σ samples e^(-iωt)| / gain, doubled where a line shares its height with a negative frequency."""
-    n = len(samples)
+    n, duration = len(samples), check_number("duration", duration, SHORTEST, LONGEST, "s")
     amplitude = np.abs(np.fft.rfft(samples)) / gain
     amplitude[1 : (n + 1) // 2] *= 2.0
     return AmplitudeSpectrum(np.arange(len(amplitude)) / duration, amplitude)

@@ -35,7 +35,7 @@ class Groups(NamedTuple):
     tension: int  # code of the treatment of tension, see parameters.TENSION_MODES
 
 
-def groups_of(parameters: Conveyor | np.ndarray) -> Groups:
+def groups_of(conveyor: Conveyor | np.ndarray) -> Groups:
     """The groups of one conveyor, a Conveyor or a row of a table.
 
     Examples
@@ -44,7 +44,7 @@ def groups_of(parameters: Conveyor | np.ndarray) -> Groups:
     >>> round(groups.amplitude, 4), round(groups.damping, 4), round(groups.stiffness, 2)
     (0.8478, 1.3642, 72.15)
     """
-    parameters = one_row(parameters)
+    parameters = one_row(conveyor)
     refuse_harmonics(parameters, "a motion that depends on dimensionless groups alone")
     omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
     mass, exponent = parameters[model.MASS], parameters[model.EXPONENT]
@@ -67,7 +67,7 @@ def packed(groups: Groups, psi0: float = 0.0) -> np.ndarray:
     return row
 
 
-def length_and_speed_units(parameters: Conveyor | np.ndarray) -> tuple[float, float]:
+def length_and_speed_units(conveyor: Conveyor | np.ndarray) -> tuple[float, float]:
     """The units of length, g/ω² (m), and velocity, g/ω (m/s), of a Conveyor or a row of a table.
 
     Examples
@@ -76,12 +76,12 @@ def length_and_speed_units(parameters: Conveyor | np.ndarray) -> tuple[float, fl
     >>> round(1e6 * length, 1), round(1e3 * speed, 1)  # µm, mm/s
     (99.4, 31.2)
     """
-    parameters = one_row(parameters)
+    parameters = one_row(conveyor)
     omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
     return float(gravity / omega**2), float(gravity / omega)
 
 
-def amplitude_of(parameters: Conveyor | np.ndarray, ratio: float) -> float:
+def amplitude_of(conveyor: Conveyor | np.ndarray, ratio: float) -> float:
     """The amplitude â (m/s²) at which a_z/g is `ratio`, for a Conveyor or a row of a table.
 
     Examples
@@ -89,6 +89,8 @@ def amplitude_of(parameters: Conveyor | np.ndarray, ratio: float) -> float:
     >>> round(amplitude_of(Conveyor(), 1.0), 2)  # the part can leave the plate above it
     47.18
     """
-    parameters = one_row(parameters)
+    parameters = one_row(conveyor)
     ratio = check_number("ratio", ratio, 0.0, 1e9)
+    if parameters[model.ANGLE] == 0.0:
+        raise ValueError("conveyor has the angle 0: its plate does not move normal to the track")
     return float(ratio * normal_gravity(parameters) / math.sin(parameters[model.ANGLE]))

@@ -1,15 +1,16 @@
 """States of the stroboscopic map for tables of parameters: where a motion begins, where it is later, and back."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..arguments import LARGEST_COORDINATE, MOST_CYCLES, check_count, check_numbers, check_tolerance
+from ..arguments import LARGEST_COORDINATE, MOST_CYCLES, check_array, check_count, check_tolerance
 from ..packing import as_table, check_row, check_rows
 from ..parameters import DEFAULT_TOLERANCE
 from ..solver.model import Conveyor
 from . import stroboscopic_map
 
 
-def initial_states(parameters: Conveyor | np.ndarray, tolerance: float = DEFAULT_TOLERANCE) -> np.ndarray:
+def initial_states(parameters: Conveyor | np.ndarray, *, tolerance: float = DEFAULT_TOLERANCE) -> np.ndarray:
     """States (δ in m, v in m/s) at the phases ψ0 of a table of initial conditions with n rows: shape (n, 2).
 
     Examples
@@ -20,8 +21,10 @@ def initial_states(parameters: Conveyor | np.ndarray, tolerance: float = DEFAULT
     return stroboscopic_map.initial_states(check_rows(parameters)[0], check_tolerance(tolerance))
 
 
-def strobes(parameters: Conveyor | np.ndarray, cycles: int, tolerance: float = DEFAULT_TOLERANCE) -> np.ndarray:
-    """The states (δ in m, v in m/s) of one motion, a row of a table, after each of some cycles: shape (cycles, 2).
+def strobes(conveyor: Conveyor | np.ndarray, cycles: int, *, tolerance: float = DEFAULT_TOLERANCE) -> np.ndarray:
+    """The states (δ in m, v in m/s) of one motion after each of some cycles: shape (cycles, 2).
+
+    conveyor : a Conveyor, or a row of a table with an initial condition
 
     NaN from a failure on. At most 1e6 cycles.
 
@@ -30,13 +33,15 @@ def strobes(parameters: Conveyor | np.ndarray, cycles: int, tolerance: float = D
     >>> strobes(parameter_table(Conveyor(), z0=3e-4), 5).shape
     (5, 2)
     """
-    row, tolerance = check_row("parameters", parameters), check_tolerance(tolerance)
+    row, tolerance = check_row("conveyor", conveyor), check_tolerance(tolerance)
     cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
     (state,) = stroboscopic_map.initial_states(row[None], tolerance)
     return stroboscopic_map.follow_map(row, tolerance, state, cycles)[1]
 
 
-def start_at(parameters: Conveyor | np.ndarray, states: np.ndarray, tolerance: float = DEFAULT_TOLERANCE) -> np.ndarray:
+def start_at(
+    parameters: Conveyor | np.ndarray, states: ArrayLike, *, tolerance: float = DEFAULT_TOLERANCE
+) -> np.ndarray:
     """The table, shape (n,), with initial conditions that begin at states (δ in m, v in m/s) at the phases ψ0.
 
     states : shape (n, 2); those of one conveyor may be many; NaN for a motion that failed
@@ -48,9 +53,10 @@ def start_at(parameters: Conveyor | np.ndarray, states: np.ndarray, tolerance: f
     >>> bool(np.allclose(again["z0"], parameters["z0"], atol=1e-15))
     True
     """
-    (rows, shape), states = check_rows(parameters), check_numbers("states", states).astype(np.float64)
+    rows, shape = check_rows(parameters)
+    states = check_array("states", states, -LARGEST_COORDINATE, LARGEST_COORDINATE, least=0, may_be_nan=True)
     if shape == () and states.ndim == 2:
         rows = np.tile(rows, (len(states), 1))
-    if states.shape != (len(rows), 2) or (np.abs(states) > LARGEST_COORDINATE).any():
-        raise ValueError(f"states must be δ and v of the shape ({len(rows)}, 2), got the shape {states.shape}")
+    if states.shape != (len(rows), 2):
+        raise ValueError(f"states must be δ and v of the shape ({len(rows)}, 2), as parameters, got {states.shape}")
     return as_table(stroboscopic_map.pack_states(rows, states, check_tolerance(tolerance)))

@@ -39,7 +39,8 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..parameters import normal_gravity
+from ..arguments import check_array, check_parameter
+from ..parameters import PARAMETERS, RANGES, UNITS, normal_gravity
 from ..solver import plate
 from ..solver.model import check_harmonics, pack_harmonics
 
@@ -47,6 +48,16 @@ LONGEST_THROW = math.sqrt(1.0 + math.pi**2)  # Γ at which the flight fills the 
 SHORT = 5e-3  # rad, half the turn N below which its power series is free of cancellation
 NO_HARMONICS = np.zeros(0)
 HALVINGS = 60  # of [0, 1], beyond the precision of n
+
+
+def check_arguments(acceleration: ArrayLike, others: Mapping[str, object], **parameters: float) -> tuple:
+    """Amplitudes as an array, and parameters as floats; TypeError or ValueError names one that cannot be used."""
+    for name in others:
+        if name not in (*PARAMETERS, "harmonics"):
+            raise TypeError(f"{name} is not one of {', '.join(PARAMETERS)}")
+    numbers = (check_parameter(name, value) for name, value in parameters.items())
+    amplitudes = check_array("acceleration", acceleration, *RANGES["acceleration"], UNITS["acceleration"], least=0)
+    return amplitudes, *numbers
 
 
 def throw_number(
@@ -67,9 +78,11 @@ def throw_number(
     >>> throw_number([40.0, 60.0], angle=np.radians(12.0), gravity=9.81).round(3).tolist()
     [0.848, 1.272]
     """
+    given = {"angle": angle, "gravity": gravity, "inclination": inclination}
+    acceleration, angle, gravity, inclination = check_arguments(acceleration, others, **given)
     share = plate.largest_fall(pack_harmonics(check_harmonics(harmonics)))
     gravity = normal_gravity({"gravity": gravity, "inclination": inclination})
-    return np.asarray(acceleration) * math.sin(angle) / gravity * share
+    return acceleration * math.sin(angle) / gravity * share
 
 
 def throw_number_of_flight(cycles: ArrayLike) -> np.ndarray:
@@ -114,11 +127,13 @@ def throw_velocity(
     >>> velocity.round(4).tolist()
     [0.0, 0.0887, nan]
     """
-    throw = throw_number(acceleration, angle=angle, gravity=gravity, inclination=inclination)
+    given = {"angle": angle, "gravity": gravity, "inclination": inclination}
+    given |= {"frequency": frequency, "phase_shift": phase_shift}
+    amplitude, angle, gravity, inclination, frequency, phase_shift = check_arguments(acceleration, others, **given)
+    throw = throw_number(amplitude, angle=angle, gravity=gravity, inclination=inclination)
     cycles = flight_cycles(throw)
     omega = 2.0 * math.pi * frequency
     take_off = math.pi - np.arccos(1.0 / np.maximum(throw, 1.0))
-    amplitude = np.asarray(acceleration)
 
     def plate_at(phase):
         return plate.motion(

@@ -22,8 +22,9 @@ from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..arguments import check_parameter
+from ..arguments import LONGEST, check_array, check_parameter, check_type
 from ..parameters import HARMONIC, MOST_HARMONICS, PARAMETERS, TENSION_MODES
 from . import plate
 from .jit import compiled_inline
@@ -57,6 +58,8 @@ class Harmonic(NamedTuple):
 
 def check_harmonics(harmonics: Sequence[Harmonic | Mapping[str, float]]) -> tuple[Harmonic, ...]:
     """`harmonics` as Harmonics in ascending order; ValueError that names the number which cannot be used."""
+    if not isinstance(harmonics, (list, tuple)):
+        raise ValueError(f"harmonics = {harmonics!r} must be a list of harmonics")
     checked = []
     for k, given in enumerate(harmonics):
         given = given._asdict() if isinstance(given, Harmonic) else given
@@ -119,7 +122,7 @@ class Conveyor:
     phase_shift: float = 0.0
     static_friction: float | None = None
     tension: str = "allow"
-    harmonics: tuple[Harmonic, ...] = ()
+    harmonics: Sequence[Harmonic | Mapping[str, float]] = ()
 
     def __post_init__(self):
         for name, value in zip(PARAMETERS, numbers_of(self), strict=False):
@@ -188,7 +191,7 @@ def normal_gravity(parameters):
     return parameters[GRAVITY] * math.cos(parameters[INCLINATION])
 
 
-def plate_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarray]:
+def plate_motion(conveyor: Conveyor, times: ArrayLike) -> dict[str, np.ndarray]:
     """Position and velocity of the plate (Eqs. 3, 4, 10) at `times` (s): x, z in m; vx, vz in m/s; same shape.
 
     Examples
@@ -197,8 +200,9 @@ def plate_motion(conveyor: Conveyor, times: np.ndarray) -> dict[str, np.ndarray]
     >>> (1e6 * plate["z"]).round(1).tolist()  # µm
     [-84.3, 84.3]
     """
+    check_type("conveyor", conveyor, Conveyor)
     omega = 2.0 * math.pi * conveyor.frequency
-    phase = omega * np.asarray(times, dtype=np.float64) + conveyor.psi0
+    phase = omega * check_array("times", times, -LONGEST, LONGEST, "s", least=0) + conveyor.psi0
     a_z = conveyor.acceleration * math.sin(conveyor.angle)
     a_x = conveyor.acceleration * math.cos(conveyor.angle)
     harmonics = pack(conveyor, Start())[len(PARAMETERS) :]

@@ -13,7 +13,7 @@ SETTINGS = {"model": {}}
 def test_the_row_of_a_riding_part():
     """It is never in the air; penetration, speed of approach and period agree with the orbit in floating point."""
     row = parameter_table(Conveyor(acceleration=30.0), Start())
-    state = initial_states(row[None], periodic_orbits.ORBIT_TOLERANCE)[0]
+    state = initial_states(row[None], tolerance=periodic_orbits.ORBIT_TOLERANCE)[0]
     orbit = periodic_orbits.settled_orbit(row, state, (1,), 1000)
     returns = periodic_orbits.ReturnMap(row, 1)
     about = certified.float_orbit(7, returns, returns.scaled(30.0, orbit.state))

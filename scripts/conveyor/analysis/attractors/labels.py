@@ -21,7 +21,7 @@ from ...columns import Columns
 from ...packing import as_table, check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
-from ...solver.model import FREQUENCY
+from ...solver.model import FREQUENCY, Conveyor
 from ..chaos import lyapunov
 from . import convergence_lanes
 from .attractor_table import NO_ATTRACTORS, AttractorTable, distinct_rows
@@ -45,7 +45,7 @@ def regular_state(flight: float) -> str:
 
 
 def classify(
-    parameters: np.ndarray,
+    parameters: Conveyor | np.ndarray,
     *,
     cycles: int = CYCLES,
     attractors: AttractorTable | Attractors = NO_ATTRACTORS,

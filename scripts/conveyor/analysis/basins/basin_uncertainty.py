@@ -11,6 +11,7 @@ with the shares p of the labels in a box.
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...arguments import check_count
 from ...linear_algebra import fit_line
@@ -37,7 +38,7 @@ class BasinEntropy(NamedTuple):
     boundary: float  # mean over the uncertain boxes; above log 2 the boundary is fractal; NaN for a single basin
 
 
-def check_map(labels: np.ndarray, least: int) -> np.ndarray:
+def check_map(labels: ArrayLike, least: int) -> np.ndarray:
     """The numbers of the labels of a map, without axes of one point; ValueError unless each other axis has `least`."""
     try:
         labels = np.squeeze(np.asarray(labels))
@@ -59,7 +60,7 @@ def shares_in_boxes(numbers: np.ndarray, size: int) -> np.ndarray:
     return np.stack([(boxes == label).mean(axis=1) for label in range(int(numbers.max()) + 1)], axis=1)
 
 
-def uncertainty_exponent(labels: np.ndarray) -> Uncertainty:
+def uncertainty_exponent(labels: ArrayLike) -> Uncertainty:
     """The uncertainty exponent of a map of labels, as from `basin`, over distances of 1 to 15 points.
 
     labels : words or whole numbers on a grid of one, two or more axes, with at least 30 points along each
@@ -80,7 +81,7 @@ def uncertainty_exponent(labels: np.ndarray) -> Uncertainty:
     return Uncertainty(value, error, DISTANCES, uncertain)
 
 
-def basin_entropy(labels: np.ndarray, size: int = 20) -> BasinEntropy:
+def basin_entropy(labels: ArrayLike, size: int = 20) -> BasinEntropy:
     """The basin entropy of a map of labels in boxes with `size` points along an edge.
 
     Examples

@@ -17,7 +17,7 @@ not generic.
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -45,6 +45,7 @@ from .bifurcation_points import (
 )
 from .continuation import Bifurcation
 from .newton import difference_quotients, follow_curve, newton
+from .periodic_orbits import Orbit
 
 CONVERGED, ITERATIONS = 1e-10, 12  # last correction of Newton's iteration, and number of corrections
 FARTHEST = 1.0  # distance over which a correction may move a point
@@ -299,7 +300,7 @@ def follow_grazing_curve(
     return BifurcationCurve(points, log_ratios, np.full(len(points), np.nan), impacts, [], tuple(ends))
 
 
-def continue_bifurcation(bifurcation: Bifurcation, parameter: str, limits: tuple[float, float]) -> Columns:
+def continue_bifurcation(bifurcation: Bifurcation, parameter: str, limits: Sequence[float]) -> Columns:
     """The curve of a bifurcation over the amplitude and a second parameter, with its points of codimension two.
 
     Parameters
@@ -325,6 +326,7 @@ def continue_bifurcation(bifurcation: Bifurcation, parameter: str, limits: tuple
     ([50.54, 58.97], [0.2, 0.4])
     """
     check_type("bifurcation", bifurcation, Bifurcation)
+    check_type("bifurcation.orbit", bifurcation.orbit, Orbit)
     check_choice("parameter", parameter, PATHS)
     check_choice("bifurcation.kind", bifurcation.kind, (*SIGNS, GRAZING))
     row, kind, period = bifurcation.orbit.parameters, bifurcation.kind, bifurcation.orbit.period

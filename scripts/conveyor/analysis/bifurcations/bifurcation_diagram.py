@@ -1,55 +1,74 @@
 """The motion under a slow change of the conveyor: each conveyor begins where the one before ended."""
 
+import threading
+
 import numpy as np
 
-from ...arguments import MOST_CYCLES, check_count, check_tolerance
+from ...arguments import MOST_CYCLES, MOST_VALUES, check_count, check_threads, check_tolerance
+from ...columns import Columns
 from ...packing import check_rows
+from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
 from ...progress import progress_bar
+from ...solver.model import Conveyor
 from ...solver.status import NOT_FINITE, OK, STATUS
 from .. import stroboscopic_map
 
 
 def bifurcation_diagram(
-    parameters: np.ndarray,
+    parameters: Conveyor | np.ndarray,
     *,
     transient: int = 1000,
     strobes: int = 64,
     tolerance: float = DEFAULT_TOLERANCE,
+    threads: int = 1,
     progress: str | None = None,
-) -> tuple[np.ndarray, np.ndarray]:
+) -> Columns:
     """Stroboscopic states on the attractors of conveyors that change step by step.
 
     Parameters
     ----------
-    parameters : table, shape (n,), in order; only the first initial condition counts
+    parameters : from `parameter_table`, of any shape; the conveyors along the last axis follow each other, and only the
+        first initial condition along it counts
     transient : excitation cycles on each conveyor before the recorded ones, up to 1e6
     strobes : excitation cycles that are recorded, 1 to 1e6
-    tolerance, progress : as in `sweep`
+    tolerance, threads, progress : as in `sweep`; a thread follows the conveyors along the last axis
 
     Returns
     -------
-    states : float64, shape (n, strobes, 2), δ (m) and v (m/s) at the phase ψ0; NaN from a failure on
-    status : str, shape (n,), "ok" or why the motion was lost
+    columns delta (m) and v (m/s) at the phase ψ0, with one more axis of `strobes` cycles, NaN from a failure on; and
+    status, of the shape of `parameters`, "ok" or why the motion was lost
 
     Examples
     --------
-    >>> parameters = parameter_table(Conveyor(), acceleration=[50.0, 57.0], z0=3e-4)
-    >>> states, status = bifurcation_diagram(parameters, transient=500, strobes=2)
-    >>> (1e6 * states[:, :, 0]).round(1).tolist()  # µm: the period has doubled
+    >>> diagram = bifurcation_diagram(parameter_table(Conveyor(), acceleration=[50.0, 57.0], z0=3e-4), strobes=2)
+    >>> (1e6 * diagram.delta).round(1).tolist()  # µm: the period has doubled
     [[-600.9, -600.9], [-783.4, -476.1]]
     """
-    (parameters, shape), tolerance = check_rows(parameters), check_tolerance(tolerance)
-    if len(shape) > 1 or not len(parameters):
-        raise ValueError(f"parameters must be a table of the shape (n,), got {shape}")
+    (rows, shape), tolerance, threads = check_rows(parameters), check_tolerance(tolerance), check_threads(threads)
+    if not len(rows):
+        raise ValueError(f"parameters must have at least one row, got the shape {shape}")
     check_count("transient", transient, 0, MOST_CYCLES)
     check_count("strobes", strobes, 1, MOST_CYCLES)
-    states = np.full((len(parameters), strobes, 2), np.nan)
-    codes = np.full(len(parameters), NOT_FINITE)
-    (state,) = stroboscopic_map.initial_states(parameters[:1], tolerance)
-    for i, row in enumerate(progress_bar(parameters, label=progress)):
-        codes[i], visited, _ = stroboscopic_map.follow_map(row, tolerance, state, transient + strobes)
-        states[i] = visited[transient:]
-        if codes[i] != OK:
-            break
-    return states, np.array(STATUS)[codes]
+    if len(rows) * strobes > MOST_VALUES:
+        raise ValueError(f"strobes = {strobes} of {len(rows)} conveyors are more than {MOST_VALUES:g}; take fewer")
+    lines = rows.reshape(-1, *shape[-1:], rows.shape[-1]) if shape else rows[None]
+    states = np.full((*lines.shape[:2], strobes, 2), np.nan)
+    codes, lock = np.full(lines.shape[:2], NOT_FINITE), threading.Lock()
+
+    with progress_bar(total=len(rows), label=progress) as shown:
+
+        def work(begin, end):
+            for k in range(begin, end):
+                (state,) = stroboscopic_map.initial_states(lines[k, :1], tolerance)
+                for i, row in enumerate(lines[k]):
+                    codes[k, i], visited, _ = stroboscopic_map.follow_map(row, tolerance, state, transient + strobes)
+                    states[k, i] = visited[transient:]
+                    if codes[k, i] != OK:
+                        break
+                    with lock:
+                        shown.update()
+
+        for_each_chunk(work, len(lines), threads=threads, chunk=1)
+    delta, v = np.moveaxis(states, -1, 0).reshape(2, *shape, strobes)
+    return Columns({"delta": delta, "v": v, "status": np.array(STATUS, dtype=object)[codes].reshape(shape)})

@@ -6,14 +6,14 @@ where the multipliers jump past ±1 at a grazing, although the branch may turn t
 positive and at most 1, so that no other bifurcation of a single orbit is generic.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 
 from ... import linear_algebra
-from ...arguments import check_choice, check_limits
+from ...arguments import check_choice, check_limits, check_type
 from ...columns import Columns
 from .newton import follow_curve
 from .periodic_orbits import SAME_ORBIT, Orbit, ReturnMap, check_orbit
@@ -84,7 +84,7 @@ def doubling_test(orbit: Orbit) -> float:
     return ((1.0 + first) * (1.0 + second)).real
 
 
-def continue_orbit(orbit: Orbit, parameter: str, limits: tuple[float, float]) -> Branch:
+def continue_orbit(orbit: Orbit, parameter: str, limits: Sequence[float]) -> Branch:
     """The branch of an orbit in one parameter, with its folds, period doublings and grazings.
 
     Parameters
@@ -198,6 +198,14 @@ def _zero(at: Callable[[float], Orbit | None], test: Callable[[Orbit], float]) -
         return None
 
 
+def check_doubling(name: str, bifurcation: object) -> None:
+    """TypeError or ValueError, with the `name` of the argument, unless `bifurcation` is a period doubling."""
+    check_type(name, bifurcation, Bifurcation)
+    check_type(f"{name}.orbit", bifurcation.orbit, Orbit)
+    check_choice(f"{name}.parameter", bifurcation.parameter, CONTINUED)
+    check_choice(f"{name}.kind", bifurcation.kind, ("period_doubling",))
+
+
 def find_doubled_orbit(bifurcation: Bifurcation) -> Orbit | None:
     """An orbit of twice the period at the distance DOUBLED from a period doubling, along the eigenvector of -1.
 
@@ -211,6 +219,7 @@ def find_doubled_orbit(bifurcation: Bifurcation) -> Orbit | None:
     >>> doubled.period, doubled.stable
     (2, True)
     """
+    check_doubling("bifurcation", bifurcation)
     orbit = bifurcation.orbit
     single, double = (ReturnMap(orbit.parameters, n * orbit.period, bifurcation.parameter) for n in (1, 2))
     unknown = single.unknown(orbit)

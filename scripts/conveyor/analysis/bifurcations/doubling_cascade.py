@@ -1,9 +1,11 @@
 """Cascades of period doublings: their doublings, Feigenbaum's ratios and where they accumulate."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from ...arguments import LARGEST_COORDINATE, check_array
 from ...packing import replace_parameters
-from .continuation import Bifurcation, doubling_test
+from .continuation import Bifurcation, check_doubling, doubling_test
 from .periodic_orbits import orbit_near, settled_orbit
 
 FEIGENBAUM = 4.669201609102990
@@ -31,6 +33,12 @@ def doubling_cascade(first: Bifurcation, second: Bifurcation) -> list[Bifurcatio
     >>> [(doubling.orbit.period, round(doubling.orbit.acceleration, 3)) for doubling in cascade]  # m/s²
     [(1, 47.392), (2, 56.401), (4, 58.354)]
     """
+    for name, doubling in (("first", first), ("second", second)):
+        check_doubling(name, doubling)
+        if doubling.parameter != "acceleration":
+            raise ValueError(f"{name} must be a bifurcation in the acceleration, got one in the {doubling.parameter}")
+    if second.orbit.period != 2 * first.orbit.period:
+        raise ValueError(f"second has the period {second.orbit.period}, not twice the period of first")
     cascade = [first, second]
 
     def at(acceleration):
@@ -61,7 +69,15 @@ def doubling_cascade(first: Bifurcation, second: Bifurcation) -> list[Bifurcatio
         )
 
 
-def doubling_ratios(amplitudes: np.ndarray) -> np.ndarray:
+def check_series(amplitudes: object) -> np.ndarray:
+    """`amplitudes`, shape (n,), as float64; NaN is allowed."""
+    numbers = check_array("amplitudes", amplitudes, -LARGEST_COORDINATE, LARGEST_COORDINATE, least=0, may_be_nan=True)
+    if numbers.ndim != 1:
+        raise ValueError(f"amplitudes must have the shape (n,), got {numbers.shape}")
+    return numbers
+
+
+def doubling_ratios(amplitudes: ArrayLike) -> np.ndarray:
     """Feigenbaum's ratios (d_n - d_(n-1))/(d_(n+1) - d_n) of successive doublings, shape (n - 2,).
 
     Examples
@@ -69,11 +85,13 @@ def doubling_ratios(amplitudes: np.ndarray) -> np.ndarray:
     >>> doubling_ratios(np.array([54.21824, 61.27324, 62.47738, 62.7079])).round(2).tolist()
     [5.86, 5.22]
     """
-    gaps = np.diff(amplitudes)
+    gaps = np.diff(check_series(amplitudes))
+    if not (np.abs(gaps[1:]) > 0.0).all():
+        raise ValueError("amplitudes of successive doublings must be numbers that differ")
     return gaps[:-1] / gaps[1:]
 
 
-def accumulation_point(amplitudes: np.ndarray) -> tuple[float, float]:
+def accumulation_point(amplitudes: ArrayLike) -> tuple[float, float]:
     """Limit of successive doublings by Aitken's process, and its error, the change by the last one; NaN for none.
 
     Examples
@@ -82,6 +100,7 @@ def accumulation_point(amplitudes: np.ndarray) -> tuple[float, float]:
     >>> round(limit, 3), round(error, 3)
     (62.762, 0.037)
     """
+    amplitudes = check_series(amplitudes)
     if len(amplitudes) < 4 or not (np.diff(np.abs(np.diff(amplitudes[-4:]))) < 0.0).all():
         return np.nan, np.nan
     before, gap = amplitudes[:-2], np.diff(amplitudes)

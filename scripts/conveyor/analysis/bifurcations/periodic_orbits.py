@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ... import linear_algebra
 from ...arguments import LARGEST_COORDINATE, MOST_CYCLES, check_array, check_count, check_type
@@ -246,7 +247,7 @@ def least_period(orbit: Orbit) -> int:
 
 def periodic_orbit(
     conveyor: Conveyor | np.ndarray,
-    start: Start | np.ndarray = AT_REST,
+    start: Start | ArrayLike = AT_REST,
     *,
     period: int | Iterable[int] = 1,
     transient: int = 1000,
@@ -275,7 +276,7 @@ def periodic_orbit(
     Orbit(57 m/s², period 2, stable, 2 impacts)
     """
     transient = check_count("transient", transient, 0, MOST_CYCLES)
-    several = isinstance(period, Iterable) and not isinstance(period, str)
+    several = np.iterable(period) and not isinstance(period, str)
     periods = [check_count("period", one, 1, LONGEST_PERIOD) for one in (period if several else [period])]
     if not periods:
         raise ValueError(f"period = {period!r} has no period to look for")

@@ -7,6 +7,7 @@ They multiply the exact linearisation of the stroboscopic map, and satisfy
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ... import arguments
 from ...arguments import LARGEST_COORDINATE, MOST_BLOCKS, MOST_CYCLES, MOST_VALUES
@@ -16,7 +17,7 @@ from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
 from ...solver import contact, contact_law, plate
 from ...solver.jit import compiled
-from ...solver.model import FREQUENCY, PSI0
+from ...solver.model import FREQUENCY, PSI0, Conveyor
 from ...solver.pieces import BEGIN_OF_CYCLE
 from ...solver.status import NOT_FINITE, OK, STATUS
 from .. import stroboscopic_map
@@ -74,8 +75,8 @@ def fill_stretches(parameters, state, tolerance, harmonics, phase, tangent, stre
 
 
 def lyapunov_spectrum(
-    parameters: np.ndarray,
-    states: np.ndarray | None = None,
+    parameters: Conveyor | np.ndarray,
+    states: ArrayLike | None = None,
     *,
     begin_of_cycle: bool = False,
     transient: int = 200,
@@ -114,6 +115,7 @@ def lyapunov_spectrum(
     parameters, shape = check_rows(parameters)
     tolerance = arguments.check_tolerance(tolerance)
     threads = arguments.check_threads(threads)
+    arguments.check_flag("begin_of_cycle", begin_of_cycle)
     arguments.check_count("transient", transient, 0, MOST_CYCLES)
     arguments.check_count("cycles", cycles, 1, MOST_CYCLES)
     arguments.check_count("blocks", blocks, 2, MOST_BLOCKS)
@@ -123,11 +125,10 @@ def lyapunov_spectrum(
     if states is None:
         states = stroboscopic_map.initial_states(parameters, tolerance)
     else:
-        states = arguments.check_numbers("states", states).astype(np.float64)
+        limits = {"low": -LARGEST_COORDINATE, "high": LARGEST_COORDINATE, "least": 0, "may_be_nan": True}
+        states = arguments.check_array("states", states, **limits).copy()
         if states.shape != (len(parameters), 2):
-            raise ValueError(f"states must have the shape ({len(parameters)}, 2), got {states.shape}")
-        if (np.abs(states) > LARGEST_COORDINATE).any():  # NaN is the state of a motion that failed
-            raise ValueError(f"states must lie in [{-LARGEST_COORDINATE:g}, {LARGEST_COORDINATE:g}]")
+            raise ValueError(f"states must have the shape ({len(parameters)}, 2), as parameters, got {states.shape}")
     stretches = np.full((len(parameters), blocks * cycles, 2), np.nan)
     contact_times = np.full((len(parameters), blocks * cycles), np.nan)
     codes = np.zeros(len(parameters), dtype=np.int64)

@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...linear_algebra import fit_line
 from ...solver.jit import compiled, compiled_inline
@@ -111,7 +112,7 @@ def box_counts(samples: Samples, shifts: np.ndarray, samples_per_box: float) -> 
     return np.where(np.logical_and.accumulate(enough, axis=1), totals / len(shifts), 0.0)
 
 
-def box_dimension(points: np.ndarray) -> Dimension:
+def box_dimension(points: ArrayLike) -> Dimension:
     """Minkowski-Bouligand dimension of `points`, shape (n, 2), scaled axis by axis to the unit square.
 
     Counts are means over shifted grids, which makes N(ε)ε² the area of the set dilated by a box of size ε. Boxes that

@@ -4,6 +4,7 @@ Grassberger and Procaccia, Physica D 9 (1983) 189, with the window of Theiler, P
 """
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ...arguments import check_count
 from ...solver.jit import compiled
@@ -51,7 +52,7 @@ MAXIMUM_PAIRS = 6e7  # distances to compute; larger sets are seen from fewer ref
 BLOCKS = 8  # stretches of a series whose correlation sums are compared
 
 
-def correlation_dimension(points: np.ndarray, theiler: int = 0) -> Dimension:
+def correlation_dimension(points: ArrayLike, theiler: int = 0) -> Dimension:
     """Correlation dimension of a series of `points`, shape (n, 2), scaled axis by axis to the unit square (Eq. 25).
 
     Neighbours are counted for BLOCKS consecutive parts of the series; twice the standard error that their slopes give

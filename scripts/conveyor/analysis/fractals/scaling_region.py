@@ -8,6 +8,7 @@ its rim. `scaling_region` finds the scales in between.
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ... import linear_algebra
 from ...arguments import LARGEST_COORDINATE, check_array
@@ -43,7 +44,7 @@ class Dimension(NamedTuple):
     counts: np.ndarray
 
 
-def normalise(points: np.ndarray) -> np.ndarray:
+def normalise(points: ArrayLike) -> np.ndarray:
     """The points, shape (n, 2), scaled axis by axis to the unit square; an axis without extent becomes zero.
 
     ValueError if the points have another shape, are none, or are not finite.

@@ -27,7 +27,7 @@ def parameters_on_attractors(strobes: pd.DataFrame, settings: dict) -> tuple[pd.
     last = strobes[strobes.cycle == strobes.cycle.max()].reset_index(drop=True)
     parameters = np.full(len(last), grid.row_of(settings["model"]))
     parameters["acceleration"] = last.acceleration
-    return last, start_at(parameters, last[["delta", "v"]].to_numpy(), settings["tolerance"])
+    return last, start_at(parameters, last[["delta", "v"]].to_numpy(), tolerance=settings["tolerance"])
 
 
 def make(

@@ -41,7 +41,7 @@ def search_seeds(parameters: np.ndarray, settings: dict) -> Iterator[Orbit]:
     """The different stable orbits that some initial conditions lead to, at amplitudes between the limits."""
     for acceleration in np.linspace(*settings["limits"], AMPLITUDES + 2)[1:-1]:
         row = replace_parameters(parameters, acceleration=acceleration)
-        at_rest = initial_states(row[None], ORBIT_TOLERANCE)
+        at_rest = initial_states(row[None], tolerance=ORBIT_TOLERANCE)
         seen = set()
         for state in np.vstack([at_rest, sampled_initial_conditions(row)[:INITIAL_CONDITIONS]]):
             orbit = periodic_orbit(row, state, period=range(1, settings["max_period"] + 1), transient=CYCLES)

@@ -3,7 +3,6 @@
 import numpy as np
 
 from conveyor import bifurcation_diagram, classify, start_at
-from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.common.labelling import search_options
 
@@ -26,20 +25,13 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     amplitudes = grid.axis_values("acceleration", settings["acceleration"])
     _, upwards = grid.product({"acceleration": list(amplitudes)}, settings["model"])
     count, tolerance = settings["strobes"], settings["tolerance"]
-    orders = slice(None), slice(None, None, -1)
-    swept = [None] * len(BRANCHES)
-
-    def work(begin, end):
-        for k in range(begin, end):
-            orbit_states = bifurcation_diagram(
-                upwards[orders[k]], transient=settings["transient"], strobes=count, tolerance=tolerance
-            )
-            swept[k] = [column[orders[k]] for column in orbit_states]
-
-    for_each_chunk(work, len(BRANCHES), threads=threads, chunk=1)
-    points, status = (np.stack(columns) for columns in zip(*swept, strict=True))
+    both = np.stack([upwards, upwards[::-1]])
+    options = {"tolerance": tolerance, "threads": threads}
+    swept = bifurcation_diagram(both, transient=settings["transient"], strobes=count, **options)
+    points, status = np.stack([swept.delta, swept.v], axis=-1), swept.status
+    points[1], status[1] = points[1, ::-1].copy(), status[1, ::-1].copy()
     rows = len(BRANCHES) * len(amplitudes)
-    last = start_at(np.tile(upwards, 2), points[:, :, -1].reshape(rows, 2), tolerance)
+    last = start_at(np.tile(upwards, 2), points[:, :, -1].reshape(rows, 2), tolerance=tolerance)
     labels = classify(last, **search_options(settings), threads=threads, progress=progress)
     return {
         "branch": np.repeat(BRANCHES, len(amplitudes) * count),

@@ -75,11 +75,12 @@ def test_sweep_keeps_to_its_attractor():
     ):
         model = {"z0": z0}
         _, parameters = grid.product({"acceleration": list(amplitudes)}, model)
-        strobes, status = bifurcation_diagram.bifurcation_diagram(parameters, transient=300, strobes=4, tolerance=1e-10)
-        assert (status == "ok").all()
-        assert np.ptp(strobes, axis=1) == pytest.approx(0.0, abs=1e-7)
-        starts = start_at(parameters, strobes[:, -1], 1e-10)
-        assert initial_states(starts, 1e-10) == pytest.approx(strobes[:, -1], abs=1e-14)
+        diagram = bifurcation_diagram.bifurcation_diagram(parameters, transient=300, strobes=4, tolerance=1e-10)
+        assert (diagram.status == "ok").all()
+        assert np.ptp([diagram.delta, diagram.v], axis=2) == pytest.approx(0.0, abs=1e-7)
+        last = np.column_stack([diagram.delta[:, -1], diagram.v[:, -1]])
+        starts = start_at(parameters, last)
+        assert initial_states(starts) == pytest.approx(last, abs=1e-14)
         assert set(labels.classify(starts).state) == {state}
 
 
