@@ -5,8 +5,13 @@ import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, wait
 from functools import cache
+from typing import TypeVar
 
 from .progress import progress_bar
+
+Result = TypeVar("Result")
+# What stops the long work of a call of `for_each_chunk`, for its threads.
+of_thread = threading.local()
 
 # The first range of a thread is this share of a chunk. Each following one grows by at most GROWTH, and takes about
 # SECONDS, so that Ctrl-C and progress bars do not wait for long.
@@ -62,13 +67,14 @@ def for_each_chunk(
     >>> squares.tolist()
     [0.0, 1.0, 4.0, 9.0, 16.0]
     """
-    lock, begun, failed = threading.Lock(), 0, 0
+    lock, begun, failed, stops = threading.Lock(), 0, 0, set()
 
     with progress_bar(total=count, label=progress) as shown:
         # Each thread takes its next range itself; a thread that hands out ranges would cost as much as a few points.
         def take() -> None:
             nonlocal begun, failed
             length, seconds = 0, 0.0
+            outer, of_thread.stops = getattr(of_thread, "stops", set()), stops
             try:
                 while True:
                     with lock:
@@ -86,8 +92,16 @@ def for_each_chunk(
                             shown.set_postfix_str(f"{failed} failed", refresh=False)
                         shown.update(length)
             except BaseException:
-                begun = count  # nothing is left for the others
+                end()
                 raise
+            finally:
+                of_thread.stops = outer
+
+        def end() -> None:
+            nonlocal begun
+            begun = count  # nothing is left for the others
+            for stop in tuple(stops):
+                stop()
 
         ranges = -(-count // chunk)
         futures = [other_threads(threads - 1).submit(take) for _ in range(min(threads, ranges) - 1)]
@@ -96,25 +110,37 @@ def for_each_chunk(
             take()
         finally:
             running = [future for future in futures if not future.cancel()]
-            wait(running)
+            try:
+                wait(running)
+            except BaseException:
+                end()
+                raise
         for future in running:
             future.result()
 
 
-def call_interruptibly(work: Callable[[], None], stop: Callable[[], None]) -> None:
-    """Call `work`; Ctrl-C calls `stop`, after which `work` must end soon.
+def call_interruptibly(work: Callable[[], Result], stop: Callable[[], None], *, is_long: bool) -> Result:
+    """The result of `work`; if it `is_long`, Ctrl-C calls `stop`, after which `work` must end soon.
 
-    Python handles Ctrl-C in the main thread, between its own steps. Compiled work therefore goes to another thread.
+    Python handles Ctrl-C in the main thread, between its own steps. Long compiled work of the main thread therefore
+    goes to another thread, which costs a tenth of a millisecond. In a thread of `for_each_chunk`, an error in another
+    of its threads calls `stop`, too.
     """
+    if not is_long:
+        return work()
     if threading.current_thread() is not threading.main_thread():
-        work()
-        return
-    thread = threading.Thread(target=work)
-    thread.start()
-    try:
-        while thread.is_alive():
-            thread.join(0.1)
-    except BaseException:
-        stop()
-        thread.join()
-        raise
+        stops = getattr(of_thread, "stops", set())
+        stops.add(stop)
+        try:
+            return work()
+        finally:
+            stops.discard(stop)
+    with ThreadPoolExecutor(1) as thread:
+        future = thread.submit(work)
+        try:
+            while not future.done():
+                wait([future], timeout=0.1)
+        except BaseException:
+            stop()
+            raise
+        return future.result()

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from conveyor.parallel import for_each_chunk, next_length
+from conveyor.parallel import call_interruptibly, for_each_chunk, next_length
 
 
 @given(count=st.integers(1, 5000), threads=st.integers(1, 8), chunk=st.integers(1, 600), seconds=st.floats(0.0, 10.0))
@@ -75,3 +75,26 @@ def test_an_error_in_either_thread_is_raised_and_ends_the_work_of_both(wrong):
     with pytest.raises(ValueError, match=f"no number {wrong}"):
         for_each_chunk(work, 1_000_000, threads=2, chunk=1)
     assert len(seen) < 1_000_000
+
+
+def test_an_error_stops_the_long_work_of_the_other_thread():
+    both, stopped = threading.Barrier(2, timeout=20.0), threading.Event()
+
+    def work(begin, end):
+        def follow():
+            both.wait()
+            assert stopped.wait(20.0)
+
+        if threading.current_thread() is threading.main_thread():
+            both.wait()
+            raise KeyboardInterrupt
+        call_interruptibly(follow, stopped.set, is_long=True)
+
+    with pytest.raises(KeyboardInterrupt):
+        for_each_chunk(work, 2, threads=2, chunk=1)
+    assert stopped.is_set()
+
+
+def test_an_error_of_long_work_is_raised():
+    with pytest.raises(ZeroDivisionError):
+        call_interruptibly(lambda: 1 / 0, lambda: None, is_long=True)

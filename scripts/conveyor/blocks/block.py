@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from conveyor.arguments import (
     LONGEST,
@@ -18,17 +19,19 @@ from conveyor.blocks import block_motion
 from conveyor.blocks.corners import CORNERS, ROWS, STATE, X
 from conveyor.blocks.steps import STAGES
 from conveyor.columns import Columns
-from conveyor.packing import AT_REST, as_rows, check_rows, parameter_table
-from conveyor.parallel import for_each_chunk
+from conveyor.packing import AT_REST, as_rows, check_rows, conveyor_of, parameter_table
+from conveyor.parallel import call_interruptibly, for_each_chunk
 from conveyor.parameters import LAST
+from conveyor.simulation import mean_velocity
 from conveyor.solver import plate
-from conveyor.solver.model import Conveyor, Start
+from conveyor.solver.model import FREQUENCY, MASS, Conveyor, Start
 from conveyor.solver.status import OK, STATUS
 
 BLOCK_TOLERANCE = 1e-8
 SMALLEST, LARGEST = 1e-6, 10.0  # m, of a block's length and height
 # m², of `inertia`; a block with the largest one does not turn.
 LEAST_INERTIA, LARGEST_INERTIA = 1e-24, 1e12
+LONG = 1000  # excitation cycles of all blocks, which take some tenths of a second
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,15 +102,9 @@ class BlockRun:
     flights: int
     steps: int
 
-    def mean_velocity(self, last: float = LAST) -> float:
-        """Mean feeding velocity over the last part of the run, m/s, as of a point (see simulation.Run)."""
-        last = check_number("last", last, 0.0, 1.0, above=True)
-        x_before = self.x_last
-        if last != LAST:
-            x_before = float(self.sample(np.array([(1.0 - last) * self.duration]))["x"][0])
-        return (self.x_end - x_before) / (last * self.duration)
+    mean_velocity = mean_velocity
 
-    def sample(self, times: np.ndarray) -> dict[str, np.ndarray]:
+    def sample(self, times: ArrayLike) -> dict[str, np.ndarray]:
         """The motion at `times` (s, any shape and order, within the run).
 
         Returns
@@ -134,13 +131,16 @@ def follow(rows, blocks, tilts, times, *, tolerance, since=None, distances=None)
     samples, arrivals = np.empty((n, k, len(block_motion.SAMPLES))), np.empty((n, len(distances)))
     results = np.zeros((n, block_motion.RESULTS))
     workspace = np.empty((4, STATE)), np.empty((STAGES, STATE)), np.empty((ROWS, CORNERS))
-    options = tolerance, np.ascontiguousarray(times), since, samples, distances, arrivals, results, workspace
-    block_motion.follow(np.ascontiguousarray(rows), plate.count_harmonics(rows), blocks, tilts, *options)
+    times = np.array(times, order="C")  # numba would compile `follow` for each other layout
+    options = tolerance, times, since, samples, distances, arrivals, results, workspace
+    given = np.ascontiguousarray(rows), plate.count_harmonics(rows), blocks, tilts
+    cycles = (times[:, -1] * rows[:, FREQUENCY]).sum()
+    call_interruptibly(lambda: block_motion.follow(*given, *options), lambda: times.fill(0.0), is_long=cycles > LONG)
     return samples, arrivals, results
 
 
 def simulate_block(
-    conveyor: Conveyor,
+    conveyor: Conveyor | np.ndarray,
     block: Block,
     start: Start = AT_REST,
     *,
@@ -152,8 +152,8 @@ def simulate_block(
 
     Parameters
     ----------
-    conveyor : the conveyor; the contact of each corner has half of its stiffness and of its damping, so that a block
-        that lands flat has the contact of a point
+    conveyor : a Conveyor, or a row of a table, whose initial condition is the default of `start`; the contact of each
+        corner has half of its stiffness and of its damping, so that a block that lands flat has the contact of a point
     block : length, height, and moment of inertia
     start : z is the height of the centre above its height at rest on the plate in its middle position
     tilt : initial angle, rad, -π to π; positive where the front is raised
@@ -170,8 +170,8 @@ def simulate_block(
     >>> run.status, round(100.0 * run.mean_velocity(), 2)  # cm/s; a point jumps, with 6.51 cm/s
     ('ok', 1.01)
     """
-    for name, value, kind in (("conveyor", conveyor, Conveyor), ("block", block, Block), ("start", start, Start)):
-        check_type(name, value, kind)
+    conveyor, start = conveyor_of(conveyor, start)
+    check_type("block", block, Block)
     tilt = check_number("tilt", tilt, -math.pi, math.pi, "rad")
     duration, tolerance = check_time("duration", duration), check_tolerance(tolerance)
     before = (1.0 - LAST) * duration
@@ -201,13 +201,13 @@ def simulate_block(
 
 
 def block_transits(
-    parameters: np.ndarray,
+    parameters: Conveyor | np.ndarray,
     block: Block,
-    tilts: np.ndarray,
+    tilts: ArrayLike,
     *,
     length: float,
     longest: float,
-    begin: np.ndarray,
+    begin: ArrayLike,
     tolerance: float = BLOCK_TOLERANCE,
     threads: int = 1,
     progress: str | None = None,
@@ -267,7 +267,7 @@ def block_transits(
         "arrival": arrival,
         "velocity": np.where(late, travelled, length) / ends,
         "impact_speed": np.where(known, results[:, block_motion.IMPACT_SPEED], np.nan),
-        "peak_force": np.where(known, parameters["mass"] * results[:, block_motion.PEAK_FORCE], np.nan),
+        "peak_force": np.where(known, rows[:, MASS] * results[:, block_motion.PEAK_FORCE], np.nan),
         "airtime": np.where(known, results[:, block_motion.AIRTIME], np.nan) / np.where(known, ends - begin, np.nan),
         "largest_tilt": results[:, block_motion.TILT].copy(),
     }

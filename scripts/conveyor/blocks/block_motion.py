@@ -287,7 +287,8 @@ def follow(
             if not finite:
                 code = NOT_FINITE
                 break
-            if t >= end or (len(distances) > 0 and result[ARRIVED] == len(distances)):
+            # Ctrl-C sets the times to zero.
+            if t >= times[i, -1] or (len(distances) > 0 and result[ARRIVED] == len(distances)):
                 break
             # What follows the piece.
             if not flying:

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..arguments import LONGEST, check_array, check_choice, check_time
 from ..packing import as_rows
+from ..parallel import call_interruptibly
 from ..parameters import FIXED_STEP_METHODS as METHODS
 from ..parameters import LAST
 from ..solver.contact_lanes import new_memory
@@ -43,6 +44,7 @@ from .scheme import (
 # The factor of a step h on a decay exp(λt), as coefficients of the powers of hλ; None for a step without such a factor.
 GROWTH = {"euler": (1.0, 1.0), "semi_implicit_euler": None, "rk4": (1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0)}
 LIKELY_EVENTS = 1000  # of a run; a run with more events is repeated, with room for all of them
+LONG = 10**6  # steps of all runs, which take some hundredths of a second
 WHOLE = 1e-9  # relative distance from a whole number of steps that counts as rounding of duration and step
 
 
@@ -87,7 +89,12 @@ def follow(parameters, step, n_steps, method, indices=(), n_events=0):
     events = np.full((n, n_events, 2), math.nan)
     integrate = compiled_for(kind_of(METHODS.index(method), parameters))
     memory = new_memory(WAVES + parameters.shape[1] - FIRST_WAVE)
-    integrate(parameters, float(step), n_steps, indices, samples, events, results, memory)
+    stopped = np.zeros(1, dtype=np.bool_)
+
+    def run_all():
+        integrate(parameters, float(step), n_steps, indices, samples, events, results, stopped, memory)
+
+    call_interruptibly(run_all, lambda: stopped.fill(True), is_long=n * n_steps > LONG)
     return results, samples, events
 
 

@@ -54,7 +54,7 @@ from .scheme import (
 from .sine import sine_and_cosine
 
 FIRST_WAVE = len(PARAMETERS)  # place of the first harmonic in packed parameters
-CHECK = 256  # steps between checks that the state is finite
+CHECK = 256  # steps between checks that the state is finite, and that nothing has stopped the run
 
 
 @compiled_inline
@@ -134,7 +134,7 @@ def compiled_for(kind):
     method = kind.method
 
     @compiled
-    def integrate(parameters, step, n_steps, sample_indices, samples, events, results, work):
+    def integrate(parameters, step, n_steps, sample_indices, samples, events, results, stopped, work):
         flat, memory = work
         lanes = 1 if kind.single else LANES
         running = np.empty(lanes, np.bool_)
@@ -155,7 +155,7 @@ def compiled_for(kind):
                     n_sampled += 1
                 if i % CHECK == 0 or i == n_steps:
                     evaluations = i * EVALUATIONS[method]
-                    is_end = i == n_steps
+                    is_end = i == n_steps or stopped[0]
                     if record_results(parameters, first, memory, running, results, step, evaluations, is_end) == 0:
                         break
                     if kind.alike and method == EULER:

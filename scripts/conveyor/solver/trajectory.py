@@ -14,7 +14,7 @@ from .record import MAX_GAP, RESULTS, SAMPLED, SAMPLES, Record, Step, count_piec
 from .status import OK
 from .vertical import FLIGHT
 
-LONG = 10_000  # excitation cycles, which take some tenths of a second
+LONG = 10_000  # excitation cycles of all runs, which take some tenths of a second
 
 
 def integrate(
@@ -80,10 +80,8 @@ def integrate(
     def stop():
         results[:, SAMPLED] = k  # a run whose samples have all been taken ends
 
-    if k and (times[:, -1] * parameters[:, FREQUENCY]).max(initial=0.0) > LONG:
-        call_interruptibly(run, stop)
-    else:
-        run()
+    cycles = (times[:, -1:] * parameters[:, FREQUENCY, None]).sum()
+    call_interruptibly(run, stop, is_long=cycles > LONG)
     return samples, results
 
 

@@ -15,7 +15,7 @@ def test_runs_take_turns_until_each_has_run_long_enough(monkeypatch):
 
         return run
 
-    monkeypatch.setattr(timing, "thread_time", lambda: clock)
+    monkeypatch.setattr(timing, "process_time", lambda: clock)
     monkeypatch.setattr(timing, "TURN", 0.25)
     runs = [lasting("fast", 0.125), lasting("slow", 0.5), lasting("slowest", 2.0)]
     found, times = timing.run_in_turns(runs, repeats=3, seconds=1.0)

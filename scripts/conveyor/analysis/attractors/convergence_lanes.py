@@ -12,6 +12,7 @@ from collections import namedtuple
 
 import numpy as np
 
+from ...parallel import call_interruptibly
 from ...solver import contact, contact_lanes, pieces, plate, vertical
 from ...solver.contact_lanes import COSINE, END, LANES, LENGTH, NONE, SINE, STEPS, TIME, V, W
 from ...solver.jit import compiled, compiled_into_callers, no_refcount
@@ -31,7 +32,11 @@ SIDE_BY_SIDE = 2
 # phase of the excitation at its beginning (rad).
 AIRBORNE, LONGEST, ORIGIN = range(3)
 
-# The arguments of `follow_all_to_attractors` that say when a search is over, and the array of strobes.
+# Excitation cycles of all trajectories, which take some tenths of a second.
+LONG = 10_000
+
+# The arguments of `follow_all_to_attractors` that say when a search is over, and the array of strobes. The number of
+# cycles is an array, shape (1,), because Ctrl-C sets it to zero.
 Search = namedtuple("Search", "max_cycles attractors rows strobes")
 
 
@@ -77,7 +82,7 @@ def end_cycle(c, i, lane, motion, cycle, search, past, counts, ends):
         search.strobes[i, cycles, 0], search.strobes[i, cycles, 1] = state[0], state[1]
     flight = max(cycle[LONGEST, lane], cycle[AIRBORNE, lane])
     outcome, period, longest = convergence.check_convergence(
-        c, state, flight, search.max_cycles, search.attractors, search.rows[i], past, counts
+        c, state, flight, search.max_cycles[0], search.attractors, search.rows[i], past, counts
     )
     ends.followed[i] = counts[FOLLOWED]
     if cycles == BEFORE_FIRST_CYCLE:
@@ -187,6 +192,10 @@ def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows
             np.empty((LANES, 3, PAST)),
             np.empty((LANES, 4), np.int64),
         )
-        follow = compiled_for(harmonics)
-        follow(parameters, tolerance, Search(max_cycles, attractors, rows, strobes), ends, side_by_side, work)
+        follow, most = compiled_for(harmonics), np.array([max_cycles])
+
+        def run():
+            follow(parameters, tolerance, Search(most, attractors, rows, strobes), ends, side_by_side, work)
+
+        call_interruptibly(run, lambda: most.fill(0), is_long=len(parameters) * max_cycles > LONG)
     return ends

@@ -11,10 +11,12 @@ Without these regions, the labels of 10,000 initial conditions on the paper's co
 """
 
 import math
+from functools import partial
 
 import numpy as np
 
 from ... import linear_algebra
+from ...parallel import call_interruptibly
 from ...solver import contact, contact_law, plate
 from ...solver.jit import compiled
 from ...solver.model import PSI0
@@ -45,7 +47,7 @@ NO_REGION = np.full(3, math.inf)  # the factor of an orbit without a trapping re
 
 
 @compiled
-def comes_inside(parameters, tolerance, harmonics, centre, factor, period, radius, inner, periods=PERIODS):
+def comes_inside(parameters, tolerance, harmonics, centre, factor, period, radius, inner, periods, stopped):
     """Whether the image of an ellipse of a `radius` around a point of an orbit comes inside a smaller ellipse.
 
     All points must be inside after the same number of periods. The curve is then inside if the distance between
@@ -56,6 +58,7 @@ def comes_inside(parameters, tolerance, harmonics, centre, factor, period, radiu
     period : excitation cycles, of the orbit
     inner : radius of the smaller ellipse
     periods : number of periods in which it must come inside
+    stopped : bool, shape (1,), whether to end the search, with the result that it does not
 
     Returns
     -------
@@ -72,6 +75,8 @@ def comes_inside(parameters, tolerance, harmonics, centre, factor, period, radiu
         states[i, 1] = contact_law.speed_of_approach(c, states[i, 0], centre[1] + across)
     before = math.inf
     for n in range(1, periods + 1):
+        if stopped[0]:
+            break
         size = gap = 0.0
         for i in range(POINTS):
             for _ in range(period):
@@ -198,7 +203,11 @@ def find_trapping_region(
         if growth <= (FINE_GROWTH if spent < FINE_SHARE * most else LEAST_GROWTH):
             break
         radii = growth * radius, radius
-        inside, cycles = comes_inside(parameters, tolerance, harmonics, centre, factor, period, *radii, periods)
+        search = partial(comes_inside, parameters, tolerance, harmonics, centre, factor, period, *radii, periods)
+        stopped = np.zeros(1, dtype=np.bool_)
+        inside, cycles = call_interruptibly(
+            partial(search, stopped), partial(stopped.fill, True), is_long=periods > PERIODS
+        )
         spent += cycles
         if inside:
             radius *= growth

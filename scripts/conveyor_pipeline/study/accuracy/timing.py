@@ -1,7 +1,7 @@
 """Processor times of runs that are compared with each other."""
 
 from collections.abc import Callable, Sequence
-from time import thread_time
+from time import process_time
 from typing import Any
 
 from conveyor.progress import progress_bar
@@ -13,7 +13,9 @@ TURN = 0.01  # s
 def run_in_turns(
     runs: Sequence[Callable[[], Any]], *, repeats: int, seconds: float, progress: str | None = None
 ) -> tuple[list[Any], list[list[float]]]:
-    """The results of runs, and the processor times (s) of all their repetitions, in one thread.
+    """The results of runs, and the processor times (s) of all their repetitions.
+
+    A long run works in a thread of its own, so that the time of the whole process counts.
 
     In each of `repeats` rounds, every run has a turn unless `seconds` have been spent on it, so that a slow run is made
     once. Runs take turns, so that other load affects all of them alike. All code must have been compiled before.
@@ -24,7 +26,7 @@ def run_in_turns(
         spent = times[place]
         turn_ends = min(sum(spent) + TURN, seconds)
         while sum(spent) < turn_ends:
-            begin = thread_time()
+            begin = process_time()
             results[place] = runs[place]()
-            spent.append(thread_time() - begin)
+            spent.append(process_time() - begin)
     return results, times

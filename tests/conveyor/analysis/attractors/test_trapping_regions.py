@@ -64,8 +64,9 @@ def test_a_curve_far_outside_does_not_enter():
     (motions,) = sampling.sample_conveyors(row[None], 400, TOLERANCE)
     k = int(np.argmax(motions.flights))
     (centre, factor), spent = trapping_regions.find_trapping_region(row, TOLERANCE, motions.states[k], 1, most=10**6)
-    assert trapping_regions.comes_inside(row, TOLERANCE, None, centre, factor, 1, 1.0, 0.9)[0]
-    assert not trapping_regions.comes_inside(row, TOLERANCE, None, centre, factor, 1, 4.0, 1.0)[0]
+    options = trapping_regions.PERIODS, np.zeros(1, dtype=np.bool_)
+    assert trapping_regions.comes_inside(row, TOLERANCE, None, centre, factor, 1, 1.0, 0.9, *options)[0]
+    assert not trapping_regions.comes_inside(row, TOLERANCE, None, centre, factor, 1, 4.0, 1.0, *options)[0]
     # Fewer cycles show only a smaller region.
     (_, smaller), less = trapping_regions.find_trapping_region(row, TOLERANCE, motions.states[k], 1, most=spent // 4)
     assert less < spent and smaller[0] > factor[0]
