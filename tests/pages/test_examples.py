@@ -35,6 +35,19 @@ def code_of(page: str) -> list[str]:
     return re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
 
 
+def test_the_study_runs(tmp_path, monkeypatch):
+    """With fewer points along each axis than the script has."""
+    monkeypatch.chdir(tmp_path)
+    matplotlib.use("agg")
+    code = (ROOT / "docs/guides/study.py").read_text(encoding="utf-8")
+    assert code.count("\n") <= 60
+    names = {}
+    exec(code.replace("SIZE = 100", "SIZE = 32"), names)
+    assert len(pd.read_parquet("labels_0.2.parquet")) == 32**2
+    assert names["summary"].notna().all(axis=None)
+    assert (tmp_path / "study.png").is_file()
+
+
 def test_the_module_of_the_new_table_fills_its_columns():
     names = {}
     exec(code_of("add_table")[0], names)
