@@ -16,10 +16,15 @@ MOST_FAULTS = 5  # that a message names
 SAMPLED = 300  # lines that show how a file separates its columns
 SEPARATORS = (";", "\t", ",", " ")
 NUMBER = re.compile(r"[-+]?(\d[\d.,'\u00a0\u202f]*|[.,]\d+)([eE][-+]?\d+)?")
-CLOCK = re.compile(r"([-\d]+[T ])?\d{1,2}:\d{2}(:\d{2}([.,]\d+)?)?(Z|[-+]\d{2}:?\d{2})?")
+# A clock time, also behind a date of any form, or of minutes and seconds alone; some write 12:30:05:250, and AM or PM.
+CLOCK = re.compile(
+    r"(?:(?:(?P<date>[-\d./]{6,10})[T ])?(?P<hours>\d{1,2}):)?(?P<minutes>\d{1,2}):(?P<seconds>\d{2}(?:[.,:]\d+)?)"
+    r"(?: ?(?P<half>[AP]M))?(?:Z|[-+]\d{2}:?\d{2})?",
+    re.IGNORECASE,
+)
 # A unit behind a name: Time (ms), accel [g], and in a line of its own: (s), m/s^2.
 UNIT = re.compile(r"\s*[(\[]([^()\[\]]*)[)\]]$")
-DAY = 86_400.0  # s
+HOUR, DAY = 3600.0, 86_400.0  # s
 EXCEL_LINE = re.compile(r'"?sep=."?')
 
 
@@ -122,11 +127,14 @@ def values_in(line: str, separator: str) -> int:
 
 
 def separator_of(lines: Sequence[str]) -> str:
-    """The separator with which most lines hold values; of two, the more frequent one in the first line."""
-    step = max(1, len(lines) // SAMPLED)
+    """The separator with which most lines hold values; of two, the one that leaves fewer other texts, or the more
+    frequent one in the first line."""
+    sampled = lines[:: max(1, len(lines) // SAMPLED)]
 
-    def score(separator: str) -> tuple[int, int]:
-        return sum(values_in(line, separator) > 0 for line in lines[::step]), lines[0].count(separator)
+    def score(separator: str) -> tuple[int, int, int]:
+        rows = [line for line in sampled if values_in(line, separator)]
+        texts = sum(not is_value(field) for line in rows for field in split(line, separator))
+        return len(rows), -texts, lines[0].count(separator)
 
     return max(SEPARATORS, key=score)
 
@@ -149,13 +157,18 @@ def find_header(lines: Sequence[tuple[int, str]], separator: str, is_known: Call
 
     A commented line counts if no other line names a column.
     """
-    first = next((place for place, (_, line) in enumerate(lines) if values_in(line, separator)), len(lines))
+    # Two lines in succession: a line of settings before the header may hold numbers, too.
+    following = zip(lines, [*lines[1:], lines[-1]], strict=True)
+    first = next(
+        (place for place, pair in enumerate(following) if all(values_in(line, separator) for _, line in pair)),
+        len(lines),
+    )
     candidates = []
     for place, (_, line) in enumerate(lines[: first + 1]):
         fields = split(line.lstrip("#"), separator)
         known = sum(is_known(field) for field in fields)
         is_comment = line.startswith("#")
-        if known or (place < first and len(fields) > 1 and not is_comment):
+        if known or (place < first and len(fields) > 1 and not is_comment and not values_in(line, separator)):
             candidates.append(((known > 0) + (known > 0 and not is_comment), known, place))
     return max(candidates)[2] if candidates else None
 
@@ -170,19 +183,31 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
     import numpy as np
     import pandas as pd
 
+    text = text.replace("\u2212", "-")  # the minus of typesetters
     content = [(number, line.strip(" \r")) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
     content = [(number, line) for number, line in content if not EXCEL_LINE.fullmatch(line)]
     if all(line.startswith("#") for _, line in content):
         raise TableError([f"{path}:1: is empty; the first line names the columns, such as {example}"])
     try:
-        separator = separator_of([line for _, line in content if not line.startswith("#")])
+        written = [line for _, line in content if not line.startswith("#")]
+        separator = separator_of(written)
+        if len(written) > 1 and not any(values_in(line, separator) for line in written):
+            remedy = "separate columns by commas, semicolons, tabs or spaces, and write -1.5 or 2e-3 for a number"
+            raise TableError([f"{path}: has no line with two numbers; {remedy}"])
         place = find_header(content, separator, is_known)
         if place is None:
-            number = next(number for number, line in content if not line.startswith("#"))
-            remedy = f"a line above the values must name the columns, such as {example}, separated like the values"
-            raise TableError([f"{path}:{number}: begins without names; {remedy}"])
-        header, line = content[place]
-        names, units_of = map(list, zip(*map(name_and_unit, split(line.lstrip("# "), separator)), strict=True))
+            header, line = next((number, line) for number, line in content if not line.startswith("#"))
+            names = [str(number) for number in range(1, len(split(line, separator)) + 1)]
+            if not any(map(is_known, names)):
+                remedy = f"a line above the values, separated like them, must name the columns, such as {example}"
+                raise TableError([f"{path}:{header}: begins without names; {remedy}"])
+            place, units_of = -1, [""] * len(names)
+        else:
+            header, line = content[place]
+            line = line.lstrip("# ")
+            # Where spaces separate columns, a unit behind one belongs to the name before it.
+            line = re.sub(r"(?<=\w) +(?=[(\[])", "", line) if separator == " " else line
+            names, units_of = map(list, zip(*map(name_and_unit, split(line, separator)), strict=True))
         rows = [(number, line) for number, line in content[place + 1 :] if not line.lstrip('"').startswith("#")]
         if rows and is_unit_line(stated := split(rows[0][1], separator), units):
             units_of = [UNIT.sub(r"\1", one) or own for one, own in zip([*stated, *names], units_of, strict=False)]
@@ -194,13 +219,14 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
         names, units_of = names[:-1], units_of[:-1]
     lines, faults = np.array([number for number, _ in rows], dtype=np.int64), []
     for row in np.flatnonzero(widths != len(names)):
-        ends_empty = widths[row] == len(names) + 1 and not split(rows[row][1], separator)[-1]
+        ends_empty = widths[row] > len(names) and not any(split(rows[row][1], separator)[len(names) :])
         if not ends_empty and len(faults) < MOST_FAULTS:
             remedy = "leave no field out, and separate columns by semicolons if numbers have commas"
             faults.append(f"{path}:{lines[row]}: has {widths[row]} values for {len(names)} columns; {remedy}")
     if faults:
         raise TableError(faults)
-    options = {"header": None, "names": range(len(names) + 1), "dtype": str, "keep_default_na": False}
+    columns = range(widths.max(initial=len(names)))
+    options = {"header": None, "names": columns, "dtype": str, "keep_default_na": False}
     try:
         fields = pd.read_csv(
             io.StringIO("\n".join(line for _, line in rows)),
@@ -214,7 +240,7 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
     if rows and (fields is None or len(fields) != len(rows)):
         reason = reason if fields is None else "a quote is not closed"
         raise TableError([f"{path}:{lines[-1]}: is not CSV ({reason}); export the table as CSV"])
-    fields = pd.DataFrame(columns=range(len(names) + 1), dtype=str) if fields is None else fields
+    fields = pd.DataFrame(columns=columns, dtype=str) if fields is None else fields
     fields = fields[range(len(names))].apply(lambda one: one.str.strip())
     return Table(str(path), header, names, units_of, lines, fields, number_signs([fields[one] for one in fields]))
 
@@ -269,19 +295,25 @@ def to_numbers(texts: Any, signs: tuple[str, str]) -> Any:
 
 
 def clock_seconds(texts: Any) -> Any:
-    """Times (s) from the first one on, of clock times, also past midnight, or of ISO dates; NaN for other texts."""
+    """Times (s) from the first one on, of clock times, also past midnight or, without hours, past the hour; NaN for
+    other texts.
+
+    The date matters only where it changes: that is a day later, so a date of any form will do.
+    """
     import numpy as np
     import pandas as pd
 
-    clock = texts.str.replace(",", ".", regex=False)
-    if clock.str.contains(r"\d-\d").mean() > 0.5:
-        moments = pd.to_datetime(clock, format="ISO8601", utc=True, errors="coerce")
-    else:
-        is_short = clock.str.count(":") == 1  # minutes and seconds
-        moments = pd.to_timedelta(clock.where(~is_short, "00:" + clock), errors="coerce")
-    elapsed = moments - moments.iloc[0]
-    time = (elapsed / pd.Timedelta(1, "s")).to_numpy(dtype=np.float64)
-    return time + DAY * np.cumsum(np.diff(time, prepend=time[:1]) < -0.5 * DAY)
+    parts = texts.str.extract(f"^{CLOCK.pattern}$", flags=CLOCK.flags)
+    hours = pd.to_numeric(parts.hours)
+    is_afternoon = parts.half.str.upper() == "PM"
+    hours = hours.where(parts.half.isna(), hours % 12 + 12 * is_afternoon)
+    seconds = pd.to_numeric(parts.seconds.str.replace("[,:]", ".", regex=True))
+    time = (HOUR * hours.fillna(0.0) + 60.0 * pd.to_numeric(parts.minutes) + seconds).to_numpy(dtype=np.float64)
+    turn = HOUR if hours.isna().all() else DAY
+    is_next = np.diff(time, prepend=time[:1]) < -0.5 * turn
+    if parts.date.notna().all():
+        is_next = (parts.date != parts.date.shift(fill_value=parts.date.iloc[0])).to_numpy()
+    return time - time[0] + turn * np.cumsum(is_next)
 
 
 def number_fault(name: str, text: str) -> str:

@@ -37,7 +37,7 @@ BAD = {
     "empty": ("", 1, "is empty"),
     "only a comment": ("# measured in May\n", 1, "is empty"),
     "no velocity": ("acceleration,sd\n30,0.01\n", 1, "has no column velocity (m/s); add it"),
-    "no header": ("30,0.02\n40,0.05\n50,0.06\n", 1, "a line above the values must name the columns"),
+    "no header": ("30,0.02\n40,0.05\n50,0.06\n", 1, "must name the columns, such as acceleration,velocity"),
     "misspelt column": (f"{HEAD},frequncy\n30,0.02,50\n", 1, "did you mean frequency?"),
     "another unit in the header": (
         "acceleration (V),velocity\n30,0.02\n",
@@ -79,7 +79,7 @@ BAD = {
     "semicolons below commas": (
         f"{HEAD}\n30;0.02\n40;0.05\n50;0,06\n",
         1,
-        "separated like the values",
+        "a line above the values, separated like them",
     ),
     "zero sd": (f"{HEAD},sd\n30,0.02,0.001\n40,0.05,0\n50,0.06,\n", 3, "leave sd empty"),
     "angle in degrees": (f"{HEAD},angle\n30,0.02,20\n40,0.05,20\n50,0.06,20\n", 2, "(angles in rad)"),

@@ -170,6 +170,22 @@ def test_the_first_line_says_whether_the_harmonics_matter(made, slow, first):
     assert "the parts differ (friction 15 %)" in text
 
 
+def test_what_the_noise_could_hide_is_on_the_page_and_part_of_the_verdict():
+    """A true second harmonic of 3 % in red noise is not found, but lies below the share that the page names."""
+    template = (ROOT / "workflow/templates/excitation.md").read_text()
+    names = ("parameters", "harmonics", "quality")
+    drive = replace(DRIVE, harmonics=((2, 0.03, 1.0, 0.03, 2.0),), noise=6.0, colour=0.9, cycles=30.0)
+    noisy, quiet = tables_of(drive), tables_of(replace(DRIVE, harmonics=()))
+    hidden = page.hidden_shares(noisy["harmonics"]).iloc[0]
+    assert not noisy["harmonics"].above_noise[0] and hidden.along > 0.03 and hidden.normal > 0.03
+    text, clean = (
+        page.make(template, *(made[name] for name in names), comparison(0.01, 0.04), "mine") for made in (noisy, quiet)
+    )
+    assert text.startswith("# Measured drive: whether the harmonics matter here is not known")
+    assert "The noise could hide harmonics that matter" in text
+    assert clean.startswith("# Measured drive: the harmonics do not matter here") and "| 2 | < 0." in clean
+
+
 def test_a_plate_that_throws_backwards_is_named():
     made = tables_of(replace(DRIVE, phase_shift=3.0))
     template = (ROOT / "workflow/templates/excitation.md").read_text()

@@ -41,7 +41,7 @@ def with_rounded_times(text: str, digits: int) -> str:
 BAD_TEXTS = {
     "empty": ("", 1, "is empty"),
     "only a comment": ("# measured in May\n", 1, "is empty"),
-    "no header": ("\n".join(LINES[1:]), 1, "a line above the values must name the columns"),
+    "no header": ("\n".join(LINES[1:]), 1, "must name the columns, such as time,along,normal"),
     "no normal": (GOOD.replace("normal", "y", 1), 1, "has no column normal; there are time, along, y"),
     "no time": (GOOD.replace("time", "sample", 1), 1, "has no column time"),
     "only x": (GOOD.replace("along,normal", "x,y", 1), 1, "has no column z"),

@@ -21,12 +21,14 @@ from conveyor_pipeline.machine.excitation.harmonics import (
 from conveyor_pipeline.machine.excitation.modulation import (
     Modulation,
     alternates,
+    is_sawtooth,
+    jump_of,
     lost_samples,
     modulation_of,
     timing_line,
 )
 from conveyor_pipeline.machine.excitation.reading import DIRECTIONS, TIME_UNITS, UNITS, Recording, parse
-from conveyor_pipeline.machine.excitation.sample_times import CHECKED, MOST_EQUAL, MOST_GAPS, resolve
+from conveyor_pipeline.machine.excitation.sample_times import CHECKED, MOST_EQUAL, MOST_GAPS, keep, repeats, resolve
 
 LEAST_CYCLES = 8
 LEAST_PER_CYCLE = 8  # samples; with fewer, harmonics of low orders are aliased
@@ -37,6 +39,7 @@ LEAST_FREQUENCY = 3.0  # Hz; with half of gravity, a plate would move by 14 mm
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
 DIFFERENT = 2.0  # difference of two frequencies in units of 1/T
 OTHER_FREQUENCY = 0.01  # relative difference from a stated frequency: more than clocks differ, and than a motor slips
+CHANCE = 1e-4  # that noise alone looks like a jump of the phase
 MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
 MOST_RATE_ERROR = 2e-3  # relative standard error of the sampling rate
 MOST_SCATTER = 0.3  # rad, of the phase: times that the samples were not taken at
@@ -46,6 +49,9 @@ NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does 
 MOST_WANDER = 0.3  # rad; the amplitude would be wrong by 4 %
 # A clipped signal stays at its extreme value far longer than near it.
 NEAR, SPIKE, PLATEAU, FLAT, LEAST_FLAT = 0.002, 4.0, 3.0, 0.01, 20
+CHANCE_OF_FLAT = 0.01  # that the flattest wave looks cut off
+# Straight lines between samples: least share in each of several pieces, and ratio to those that nearly are on a line.
+LINES, STRAIGHT, PIECES = 0.1, 3.0, 8
 # Strips at the extreme, in halves of the span of the values; ratio of the first to the second; and how many times the
 # largest gap between phases, and the largest step, the first must be.
 HALVINGS, STEEP, GAPS = (5, 13), 8.0, 3.0
@@ -53,13 +59,18 @@ HALVINGS, STEEP, GAPS = (5, 13), 8.0, 3.0
 
 def first_clipped(values: np.ndarray, quantum: float) -> int | None:
     """The first sample at the largest value if the values are cut off there, else None."""
+    from scipy.special import bdtrc
+
     extreme, width = values.max(), max(1.5 * quantum, NEAR * np.ptp(values))
     at = values >= extreme - 1e-9 * np.ptp(values)
     near = np.count_nonzero((values >= extreme - width) & ~at)
     count, plateaus = np.count_nonzero(at), np.count_nonzero(np.diff(at.astype(np.int8), prepend=0) == 1)
     # Samples of every cycle at the same phases repeat an extreme value, too, but then all values repeat.
     is_varied = len(np.unique(values[~at])) > 0.5 * len(values)
-    is_flat = count >= PLATEAU * plateaus or (is_varied and count >= max(LEAST_FLAT, FLAT * len(values)))
+    # A wave whose extreme is flat to the third order has this share of the values of the strip within half a step.
+    share = (0.5 * quantum / width) ** 0.25
+    is_spike = is_varied and bdtrc(count - 1, count + near, share) < CHANCE_OF_FLAT
+    is_flat = count >= PLATEAU * plateaus or (is_spike and count >= FLAT * len(values))
     return int(np.argmax(at)) if plateaus > 1 and is_flat and count > SPIKE * near else None
 
 
@@ -154,6 +165,28 @@ def time_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
         yield None, f"has times so coarse that its rate is known to {100 * recording.rate_error:.2g} % only; {remedy}"
 
 
+def interpolation_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+    """Samples on straight lines between those that a slower sensor has measured."""
+    intervals = np.maximum(np.diff(recording.time), 1e-12)
+    weight = intervals[1:] / (intervals[1:] + intervals[:-1])
+    shares = []
+    for readings, quantum in zip(recording.readings, recording.quanta, strict=True):
+        between = weight * readings[:-2] + (1.0 - weight) * readings[2:]
+        off = np.abs(readings[1:-1] - between) / quantum
+        # The roundings of three readings are at most one step. Of a wave, or noise, more lie within the next two steps,
+        # unless nearly all do.
+        on, near, far = off < 1.01, (off >= 1.01) & (off < 3.01), off >= 3.01
+        share = min(part.mean() for part in np.array_split(on, PIECES))
+        shares.append(share if share > LINES and on.mean() > STRAIGHT * near.mean() and far.mean() > LINES else 0.0)
+    if min(shares) > 0.0:
+        yield (
+            None,
+            f"has {100.0 * min(shares):.0f} % of its samples on straight lines between the samples beside them, as "
+            "where a slower sensor is interpolated, which makes amplitudes and harmonics smaller; export the samples "
+            "as they were measured",
+        )
+
+
 def count_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """Too few cycles or too few samples in a cycle."""
     frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
@@ -180,7 +213,15 @@ def count_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """Samples that are lost, that come from two sensors, or whose times are wrong."""
     found, time = signal.modulation, signal.recording.time
-    if line := timing_line(time[: signal.fitted.residual.shape[1]], signal.fitted, found):
+    line = timing_line(time[: signal.fitted.residual.shape[1]], signal.fitted, found)
+    if line and line[0] * signal.rate < 0.25 * signal.fitted.frequency and not is_sawtooth(found, line[0]):
+        yield (
+            None,
+            f"has a phase that swings by {line[1]:.2g} rad at {line[0] * signal.rate:.3g} Hz: the drive hunts, or the "
+            "times are not those of the samples; keep a piece in which the drive runs steadily, or record the time of "
+            "each sample",
+        )
+    elif line:
         every = 1.0 / line[0] + 1.0
         right = signal.fitted.frequency * (every - 1.0) / every
         yield (
@@ -195,6 +236,13 @@ def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             f"alternates from line to line between amplitudes that differ by {200.0 * half:.2g} %, as two sensors in "
             "one file do, or one whose samples are lost regularly; keep the lines of one sensor, and record without "
             "losses",
+        )
+    elif (jump := jump_of(time[: signal.fitted.residual.shape[1]], signal.fitted)).is_alone and jump.is_found(CHANCE):
+        yield (
+            int(signal.recording.lines[jump.sample]),
+            f"follows a jump of the phase by {jump.size:.2g} rad, as where samples are lost and the times do not show "
+            f"it, so that the frequency would be wrong by {abs(jump.shift):.2g} Hz; keep a piece without the jump, or "
+            "record without losses",
         )
     elif lost := lost_samples(time[: signal.fitted.residual.shape[1]], signal.fitted, found):
         yield (
@@ -252,6 +300,8 @@ def ambiguity_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 def steadiness_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """An amplitude that changes, or a second vibration."""
     frequency, other = signal.fitted.frequency, signal.other
+    if next(sampling_faults(signal), None) is not None:
+        return
     steady = steadiness(signal.recording.time[: signal.fitted.residual.shape[1]], signal.fitted)
     if (deviation := steady["deviation"]) > max(UNSTEADY, 3.0 * steady["deviation_of_noise"]):
         yield (
@@ -349,13 +399,12 @@ def share_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 
 
 # Where a group finds faults, the next ones would only find their consequences.
-OF_TIMES = ((time_faults,), (gap_faults,))
+OF_TIMES = ((time_faults, interpolation_faults), (gap_faults,))
 OF_SIGNAL = (
     (count_faults,),
     (saturation_faults,),
-    (frequency_faults, sampling_faults, unit_faults),
+    (frequency_faults, sampling_faults, unit_faults, steadiness_faults),
     (ambiguity_faults,),
-    (steadiness_faults,),
     (share_faults,),
 )
 
@@ -381,7 +430,8 @@ def checked(table: Any, settings: Mapping[str, Any]) -> Recording:
     settings : as in `parse`, and optionally `inclination` (rad) of the track and the stated `frequency` (Hz)
     """
     raw = parse(table, settings)
-    if faults := list(reading_faults(raw)):
+    # A reading that is repeated would look like a value at which a sensor stays.
+    if faults := list(reading_faults(keep(raw, ~repeats(raw)))):
         raise table.error(faults)
     recording = resolve(raw)
     faults = first_faults(recording, OF_TIMES) or first_faults(signal_of(recording, settings), OF_SIGNAL)

@@ -26,7 +26,7 @@ SIZE = 0.1  # relative deviation within which the mean counts as gravity; sensor
 NEAR = 0.05  # relative deviation within which another unit explains the mean
 MOST_LEAN = 0.04  # rad, within which the direction of gravity fits; an offset of 0.04 g turns it by this much
 LEAST_DEGREES = 0.5  # a smaller number is no mount in degrees, because nobody sees such a small angle
-SURE = 3.0  # standard errors from which a deviation of the size is one; of the direction, one is enough
+SURE = 3.0  # standard errors that the noise may add to a deviation
 # What else the unit of a file may be, in m/s².
 OTHER_UNITS = {
     "cm/s²": 1e-2,
@@ -42,8 +42,17 @@ class Gravity(NamedTuple):
     present: bool
     size: float  # over the standard gravity
     lean: float  # rad, from the normal of the track in the feeding direction, minus the inclination
-    size_error: float  # relative, of the scale of the sensor: the deviation, if it is more than chance
-    mount_error: float  # rad, by which the sensor may be mounted more than stated, likewise
+    noise: float  # standard error of both
+
+    @property
+    def size_error(self) -> float:
+        """Relative error of the scale of the sensor: the deviation, and its standard error."""
+        return math.hypot(self.size - 1.0, self.noise) if self.present else 0.0
+
+    @property
+    def mount_error(self) -> float:
+        """The angle (rad) by which the sensor may be mounted more than stated, likewise."""
+        return math.hypot(self.lean, self.noise) if self.present else 0.0
 
 
 def wrap(angle: float) -> float:
@@ -55,16 +64,13 @@ def gravity_of(fitted: Fit, inclination: float) -> Gravity:
     """Gravity in the offsets of a fit, for a track that rises by `inclination` (rad)."""
     size = math.hypot(*fitted.offsets) / STANDARD_GRAVITY
     lean = wrap(math.atan2(*fitted.offsets) - inclination)
-    chance = math.sqrt((fitted.residual**2).mean() / fitted.residual.shape[1]) / STANDARD_GRAVITY
-    if size < ABSENT:
-        return Gravity(False, size, lean, 0.0, 0.0)
-    off = size - 1.0
-    return Gravity(True, size, lean, off if abs(off) > SURE * chance else 0.0, math.hypot(lean, chance))
+    noise = math.sqrt((fitted.residual**2).mean() / fitted.residual.shape[1]) / STANDARD_GRAVITY
+    return Gravity(size >= ABSENT, size, lean, noise)
 
 
 def size_fault(gravity: Gravity, unit: str) -> str | None:
     """What is wrong with the unit if the mean is not gravity."""
-    if abs(gravity.size - 1.0) < SIZE:
+    if abs(gravity.size - 1.0) < SIZE + SURE * gravity.noise:
         return None
     mean = gravity.size * STANDARD_GRAVITY / UNITS[unit]
     deviations = {name: abs(mean * scale / STANDARD_GRAVITY - 1.0) for name, scale in OTHER_UNITS.items()}
@@ -101,7 +107,7 @@ def fitting_columns(recording: Recording, means: np.ndarray, mount: float, incli
 
 def direction_fault(recording: Recording, gravity: Gravity, settings: Mapping[str, Any]) -> str | None:
     """What is wrong with mount, inclination or signs of axes if gravity has another direction."""
-    if not gravity.present or abs(gravity.lean) < MOST_LEAN:
+    if not gravity.present or abs(gravity.lean) < MOST_LEAN + SURE * gravity.noise:
         return None
     mount, inclination = settings["mount"], settings.get("inclination", 0.0)
     means = recording.readings.mean(axis=1)

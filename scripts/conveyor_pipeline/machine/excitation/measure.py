@@ -18,6 +18,7 @@ from conveyor_pipeline.machine.excitation.harmonics import (
     spectrum,
     steadiness,
 )
+from conveyor_pipeline.machine.excitation.modulation import jump_of
 from conveyor_pipeline.machine.excitation.reading import (
     AXES,
     DIRECTIONS,
@@ -31,6 +32,7 @@ from conveyor_pipeline.machine.excitation.sample_times import resolve
 
 DIGITS = 10  # of all numbers; further digits depend on the processor, and no sensor has them
 SAMPLES, POINTS, BINS = 2000, 257, 2000  # of the figure
+UNSURE = 0.05  # chance that noise alone looks like a jump of the phase, below which one counts as possible
 
 
 def by_axis(name: str, unit: str, description: str) -> tuple:
@@ -171,7 +173,10 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
         fit(one.time, one.acceleration, first.frequency, orders) for one in (recording, *recording.others)
     )
     noise, gravity = noise_of(recording, fitted, tuple(others)), gravity_of(fitted, settings["inclination"])
-    doubt = Doubt(gravity.mount_error, gravity.size_error, recording.rate_error)
+    # A jump of the phase, if there may be one, has moved the frequency.
+    jump = jump_of(recording.time, fitted)
+    shift = jump.shift / fitted.frequency if jump.is_found(UNSURE) else 0.0
+    doubt = Doubt(gravity.mount_error, gravity.size_error, math.hypot(recording.rate_error, shift))
     shares = harmonics(fitted, noise, doubt)
     above = np.array([shares[f"{axis}_above_noise"] for axis in AXES])
     distortion = np.sqrt((np.array([shares[axis] for axis in AXES]) ** 2 * above).sum(axis=1))

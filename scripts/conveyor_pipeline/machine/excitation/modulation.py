@@ -26,7 +26,11 @@ LEAST_GAIN, ALTERNATING = 0.003, 5.0
 # Modulation frequencies, in units of the drive's, at which phases that jump have power; it is compared with the noise
 # at higher frequencies and with the power of the amplitude.
 JUMPS, ABOVE_JUMPS = (0.1, 0.5), 1.5
-LEAST_LINES, MANY_LINES, LEAST_LOST = 8, 10, 0.3
+LEAST_LINES, MANY_LINES, LEAST_LOST = 5, 10, 0.3
+# The first frequencies tell a jump from a swing of the phase: a jump alone leaves at most this share of their power.
+SLOW_LINES, ALONE = 7, 0.1
+EDGE = 0.03  # energy that a straight line leaves of a step, per sample, below which the step is too near an end
+PLACES = 50.0  # of a jump in a recording, as if their noise were independent
 SCATTERED = 1.5  # ratio of the powers of both parts from which times scatter
 
 
@@ -40,6 +44,11 @@ class Modulation(NamedTuple):
     # sign from sample to sample, of each axis, shape (2, 2)
     alternating_noise: np.ndarray  # its standard deviation, shape (2,)
     scatter: float  # rad, standard deviation of errors of the phase from sample to sample beyond those of the amplitude
+
+    @property
+    def count(self) -> int:
+        """Number of samples."""
+        return 2 * (len(self.frequency) - 1)
 
 
 def median_nearby(values: np.ndarray) -> np.ndarray:
@@ -86,11 +95,18 @@ def timing_line(time: np.ndarray, fitted: Fit, found: Modulation) -> tuple[float
     return (float(found.frequency[place]), float(found.phase[place])) if counts[place] else None
 
 
+def is_sawtooth(found: Modulation, frequency: float) -> bool:
+    """Whether an error of the phase with a frequency (cycles per sample) rises slowly and falls at once, as by a sample
+    that is lost again and again: twice this frequency has half of its amplitude, and none if a drive hunts."""
+    sizes = [found.phase[np.abs(found.frequency - times * frequency) < 1.5 / found.count].max() for times in (1, 2)]
+    return bool(sizes[1] > 0.25 * sizes[0])
+
+
 def alternates(found: Modulation) -> float | None:
     """Half of the relative difference of the amplitudes of every first and every second sample, or None."""
     gain, phase = np.abs(found.alternating).T
-    counts = (gain > np.maximum(LEAST_GAIN, 8.0 * found.alternating_noise)) & (gain > ALTERNATING * phase)
-    return float(gain.max()) if counts.all() else None
+    counts = (gain > LEAST_GAIN) & (gain > ALTERNATING * phase)
+    return float(gain.max()) if counts.all() and (gain > 8.0 * found.alternating_noise).any() else None
 
 
 def lost_samples(time: np.ndarray, fitted: Fit, found: Modulation) -> float | None:
@@ -113,3 +129,55 @@ def lost_samples(time: np.ndarray, fitted: Fit, found: Modulation) -> float | No
     # The square of an amplitude with a Hann window is 3/N times the power per frequency.
     share = np.median(found.frequency[band] ** 2 * (found.phase[band] ** 2 - floor)) * count / (6.0 * drive**2)
     return float(share * count) if share * count > LEAST_LOST else None
+
+
+def evidence_limit(chance: float) -> float:
+    """The evidence of a jump that noise alone exceeds anywhere in a recording with this probability."""
+    from scipy.special import chdtri
+
+    return float(chdtri(1.0, chance / PLACES))
+
+
+class Jump(NamedTuple):
+    """The jump of the drive's phase that explains most of a residual."""
+
+    sample: int  # the first one after the jump
+    size: float  # rad
+    shift: float  # Hz, largest difference of the frequency of a half of the recording from the fitted one
+    evidence: float  # squared size over its variance; chi-squared with one degree of freedom if there is no jump
+    is_alone: bool  # whether hardly any slow change of the phase remains without it
+
+    def is_found(self, chance: float) -> bool:
+        """Whether noise alone would look like it with less than this probability."""
+        return self.evidence > evidence_limit(chance)
+
+
+def jump_of(time: np.ndarray, fitted: Fit) -> Jump:
+    """The jump of the phase that fits the residual best.
+
+    The fit of the frequency has taken a straight line out of the phase, so only what a line leaves of a step tells the
+    size of a jump.
+    """
+    weights = np.abs(fitted.amplitudes[:, :1]) ** 2
+    fundamental = fitted.amplitudes[:, :1] * np.exp(2j * math.pi * fitted.frequency * (time - fitted.middle))
+    error = 2.0 * (fitted.residual * np.conj(fundamental)).imag.sum(axis=0) / weights.sum()
+    count, centred = len(time), time - time.mean()
+    length = math.sqrt((centred**2).sum())
+    # Sums over the samples after each place: their number, and the products of a step with the line and with the error.
+    after, line, sums = (np.cumsum(part[::-1])[::-1][1:] for part in (np.ones(count), centred / length, error))
+    energy = after * (1.0 - after / count) - line**2
+    place = int(np.argmax(np.where(energy > EDGE * count, sums**2 / energy, 0.0)))
+    size = float(sums[place] / energy[place])
+    step = (np.arange(count) > place) - after[place] / count - line[place] * centred / length
+    before, rest = (np.abs(np.fft.rfft(one)) ** 2 / count for one in (error, error - size * step))
+    noise = np.median(before[SLOW_LINES : SLOW_LINES + NEARBY]) / math.log(2.0)
+    slow = slice(1, SLOW_LINES)
+    halves = [slice(None, count // 2), slice(count // 2, None)]
+    slopes = [np.polyfit(centred[half] - centred[half].mean(), error[half], 1)[0] for half in halves]
+    return Jump(
+        place + 1,
+        size,
+        float(np.abs(slopes).max()) / (2.0 * math.pi),
+        float(sums[place] ** 2 / energy[place] / noise),
+        bool(rest[slow].sum() < ALONE * before[slow].sum()),
+    )

@@ -19,7 +19,7 @@ SPELLINGS = {
     **dict.fromkeys(("mm/s^2", "mm/s2", "mm/s/s"), "mm/s²"),
     **{"G": "g", "gee": "g", "g0": "g", "mG": "mg", "milli-g": "mg", "sec": "s", "seconds": "s", "second": "s"},
     **{"msec": "ms", "milliseconds": "ms", "us": "µs", "usec": "µs", "μs": "µs", "microseconds": "µs"},
-    **{"nanoseconds": "ns"},
+    **{"nanoseconds": "ns", "hh:mm:ss": "s"},
 }
 HEADER_UNITS = (*UNITS, *TIME_UNITS, *SPELLINGS)
 # The axes of the plate, which are columns of a file, in words.
@@ -29,7 +29,7 @@ MOST_SAMPLES = 2_000_000  # 80 s at 25 kHz; the fit of more takes minutes and gi
 MOST_BYTES = 50 * MOST_SAMPLES
 LEAST_SAMPLES = 64  # eight cycles of eight samples
 MOST_FAULTS = 5
-EXAMPLE = "time,along,normal"
+EXAMPLE = 'time,along,normal, or excitation.columns names them by number, such as {time: "1", x: "2", z: "3"}'
 # Names of columns that need no `columns` in the config: phyphox writes `Acceleration x (m/s^2)`, others accel_x or ax.
 KNOWN = {"time": re.compile(r"(time|timestamp|t|(time|timestamp|t)[ _](s|ms|us|µs|ns))", re.IGNORECASE)}
 KNOWN |= {name: re.compile(name, re.IGNORECASE) for name in AXES}
@@ -114,12 +114,15 @@ def find_columns(table: Any, settings: Mapping[str, Any]) -> tuple[dict[str, str
     for key in (*(() if "rate" in settings else ("time",)), *pair):
         if key in found:
             continue
-        matches = [place for place, name in enumerate(names) if place not in places.values() and name.lower() == key]
-        matches = matches or [place for place, name in enumerate(names) if KNOWN[key].fullmatch(name)]
+        free = [(place, name) for place, name in enumerate(names) if place not in places.values()]
+        matches = [place for place, name in free if KNOWN[key].fullmatch(name)]
         if len(matches) == 1:
             found[key], places[key] = names[matches[0]], matches[0]
-        elif len(matches) > 1 and len({lower[place] for place in matches}) == 1:
+        elif len({lower[place] for place in matches}) == 1:
             faults.append(f"has the column {lower[matches[0]]} twice; keep one, or rename one")
+        elif matches:
+            shown = " and ".join(quote(names[place]) for place in matches)
+            faults.append(f"has the columns {shown}; say which one is {key} in excitation.columns")
         else:
             missing.append(key)
     if missing and not faults:
@@ -154,7 +157,9 @@ def unit_of(stated: str | None, headers: list[str], units: Mapping[str, float], 
     if len(given) > 1:
         return shown, [f"states the units {shown}; {choice}"]
     named = next(iter(given), next(iter(units)))
-    return named, [] if named in units else [f"states the unit {shown!r}; {choice}"]
+    what = "a time" if key == "time_unit" else "an acceleration"
+    otherwise = f"; if that is not the unit of {what}, name other columns in excitation.columns"
+    return named, [] if named in units else [f"states the unit {shown!r}; {choice}{otherwise}"]
 
 
 def quantum(readings: np.ndarray) -> float:

@@ -29,6 +29,7 @@ MOST_GAPS = 0.75  # share of the recording without samples, beyond which cycles 
 # Share of the lines that may repeat the time of the line before, as rounded times of random samples do. Where rounding
 # makes more of them equal, it is coarse enough to blur the harmonics.
 MOST_EQUAL = 0.05
+BENT = 4.0  # standard errors of the rate in half of a recording, from which it differs from that in the other
 DIGITS = 12  # decimals of times that are searched for their resolution
 
 
@@ -78,7 +79,11 @@ def even(time: np.ndarray) -> Even:
     # slow error.
     runs = 1 + np.count_nonzero(np.diff(rest > 0.0))
     scatter = max(float(rest.std()) * math.sqrt(12.0 / runs), min(last_decimal(time), slope) / math.sqrt(3.0))
-    return Even(fitted, span, resolution, scatter / float(np.ptp(time)))
+    # Clocks that change their rate leave a bend.
+    halves = [slice(None, len(time) // 2), slice(len(time) // 2, None)]
+    bend = max(abs(np.polyfit(index[half] - index[half].mean(), rest[half], 1)[0]) for half in halves)
+    chance = float(rest.std()) * math.sqrt(12.0 * 8.0 / len(time)) / (index[-1] - index[0])
+    return Even(fitted, span, resolution, max(scatter / np.ptp(time), bend / slope if bend > BENT * chance else 0.0))
 
 
 def repeats(recording: Recording) -> np.ndarray:
