@@ -30,8 +30,8 @@ CONFIG = si_config()
 
 
 def calibration():
-    few = {"first": 60, "points": 40, "rounds": 4, "alternatives": {"inclination": 0.2}}
-    return calibrate(measured(), SETTINGS | few)
+    alternatives = {"alternatives": {"inclination": 0.2}}
+    return calibrate(measured(), SETTINGS | alternatives)
 
 
 def drive_search():

@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 
 from conveyor_pipeline.machine.calibration import importance_sampling
-from conveyor_pipeline.machine.calibration.importance_sampling import Sample, monte_carlo_error, pooled, sample
+from conveyor_pipeline.machine.calibration.importance_sampling import (
+    Sample,
+    effective_number,
+    flattened,
+    monte_carlo_error,
+    pooled,
+    sample,
+)
 
 BOUNDS = np.array([[-5.0, -5.0, -5.0], [5.0, 5.0, 5.0]])
 OPTIONS = {"first": 500, "points": 500, "rounds": 6, "enough": math.inf, "seed": 1}
@@ -189,7 +196,18 @@ def test_points_of_a_related_posterior_lead_to_a_narrow_one():
     random = np.random.default_rng(2)
     near = np.column_stack([random.normal(MEAN, 0.02, (200, 3)), random.uniform(-5.0, 5.0, 200)])
     options = OPTIONS | {"first": 200, "points": 200, "rounds": 3}
-    found = sample(one_factor(peak), bounds, **options, near=near)
+    found = sample(one_factor(peak), bounds, **options, near=(near, np.ones(len(near))))
     evidence = math.log(4.0 * math.pi**2 * 0.02**3 / 1e4)
     assert found.log_evidence == pytest.approx(evidence, abs=0.3)
     assert sample(one_factor(peak), bounds, **options).size < 10.0 < found.size
+
+
+def test_a_density_is_flattened_also_if_few_points_were_drawn_where_it_is():
+    """A point counts with the reciprocal of the proposal, which varies by a factor of e^40."""
+    mixture = np.linspace(-40.0, 0.0, 100)
+    weights = flattened(lambda place: np.full(100, -place), 3, mixture, 20.0, is_even=False)
+    assert effective_number(weights) >= 20.0 and weights.argmax() == 0
+    # No more than half of the possible points are demanded.
+    impossible = np.where(np.arange(100) < 10, 0.0, -np.inf)
+    weights = flattened(lambda place: impossible, 3, mixture, 20.0, is_even=False)
+    assert 5.0 <= effective_number(weights) <= 10.0 and weights[10:].sum() == 0.0

@@ -8,6 +8,7 @@ from scipy.stats import norm
 
 from conveyor import Conveyor, Start, simulate
 from conveyor_pipeline.machine.calibration.likelihood import (
+    FIRST,
     OUTLIERS,
     conditions_of,
     is_known,
@@ -117,9 +118,9 @@ def test_static_friction_is_as_stated_or_equal_to_friction():
 def test_no_set_may_be_worth_more_parts():
     conditions, _ = conditions_of([Measurement(1, 40.0, 0.06, None, 0.2, 0.2, {})], MODEL)
     values = {name: np.full(2, value) for name, value in CONTACT.items()}
-    first = velocities(values, conditions, BOX, parts=8, seed=3)
+    first = velocities(values, conditions, BOX, parts=FIRST, seed=3)
     found = velocities(values, conditions, BOX, parts=24, seed=3, worth=lambda few: np.full(few.shape[:2], False))
-    np.testing.assert_array_equal(found, np.tile(first, 3))
+    np.testing.assert_array_equal(found, np.tile(first, 24 // FIRST))
 
 
 @pytest.mark.parametrize(
@@ -145,6 +146,6 @@ def test_more_parts_tell_nothing_new_where_the_first_ones_have_the_measured_velo
     few = np.array([[one, one], [two, one], [one, 2.0 * one]])
     # The first condition was measured twice.
     measured, of = np.array([0.1, 0.101, 0.1]), np.array([0, 0, 1])
-    known = is_known(few, measured, of, np.full(3, 0.002), np.full(3, 0.5))
+    known = is_known(few, measured, of, np.full(3, 0.002))
     assert known.tolist() == [[True, True], [False, True], [True, False]]
-    assert not is_known(few * np.nan, measured, of, np.full(3, 0.002), np.full(3, 0.5)).any()
+    assert not is_known(few * np.nan, measured, of, np.full(3, 0.002)).any()

@@ -1,9 +1,10 @@
 """Adaptive importance sampling of the posterior of a few parameters, by several independent searches.
 
-The first points of a search fill the bounds evenly. Each further round draws from a kernel density estimate of the
-posterior of all points so far (population Monte Carlo). All points count, each with the density over the mean density
-of all proposals (deterministic mixture weights: Owen and Zhou 2000; Cornuet et al. 2012). The even first round bounds
-the weights. Because estimates are evaluated at their own points, too, the evidence comes out a few percent too low.
+The first points of a search fill the bounds evenly, or lie near a related posterior. Each further round draws from a
+kernel density estimate of the posterior of all points so far (population Monte Carlo). All points count, each with the
+density over the mean density of all proposals (deterministic mixture weights: Owen and Zhou 2000; Cornuet et al. 2012).
+An even first round bounds the weights. Because estimates are evaluated at their own points, too, the evidence comes out
+a few percent too low.
 
 The likelihood is a product of factors. If each of them is estimated from a few simulated parts, two things are added:
 
@@ -121,20 +122,33 @@ def smoothed(factors: np.ndarray, points: np.ndarray, weights: np.ndarray, width
     return log(np.maximum(np.einsum("ij,jr->ir", near, exp(factors)), TINY)).sum(axis=1)
 
 
-def flattened(densities: Callable[[int], np.ndarray], count: int, mixture: np.ndarray, least: float) -> np.ndarray:
+def flattened(
+    densities: Callable[[int], np.ndarray], count: int, mixture: np.ndarray, least: float, is_even: bool
+) -> np.ndarray:
     """Weights, shape (n,), of the first of several densities that keeps enough effective points.
 
+    If none does, the one that keeps most is flattened further. A power of the density keeps enough points if some of
+    them fill the bounds evenly. Otherwise a power of the ratio of density and proposals is taken, which leads from the
+    proposals to the density; a power of 0 keeps all points, so that at most half of the possible ones are demanded.
+
     densities : function from 0 … count - 1 to logarithms of a density, shape (n,), each flatter than the one before
+    mixture : logarithm of the proposals, shape (n,)
+    is_even : whether the first proposal fills the bounds evenly
     """
+    most = 0.0
     for place in range(count):
-        values = densities(place)
-        weights, size = normalize(values - mixture)
+        density = densities(place)
+        weights, size = normalize(density - mixture)
         if size >= least:
             return weights
+        if size > most:
+            most, values = size, density
+    if not is_even:
+        least = min(least, 0.5 * np.isfinite(values).sum())
     power = 1.0
     while size < least:
         power *= FLATTER
-        weights, size = normalize(power * values - mixture)
+        weights, size = normalize(power * values - mixture if is_even else power * (values - mixture))
     return weights
 
 
@@ -189,7 +203,7 @@ def sample(
     rounds: int,
     enough: float,
     seed: int | list[int],
-    near: np.ndarray | None = None,
+    near: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> Sample:
     """A sample of the posterior with a constant prior within the bounds, by one search.
 
@@ -199,12 +213,12 @@ def sample(
         for the measurements as they are and for m - 1 ever larger inflations of their errors; -inf for what is
         impossible; called once per round
     bounds : lower and upper bounds, shape (2, d)
-    first : number of points of the first round
+    first : number of points of the first round, which fills the bounds evenly, or lies near a related posterior
     points : number of points of each further round; those beyond the bounds are dropped
     rounds : largest number of further rounds
     enough : effective number of points at which the search ends
     seed : of the random numbers
-    near : points of a related posterior, shape (k, d), near which the first of the further rounds draws
+    near : points of a related posterior, shape (k, d), and their weights, shape (k,)
 
     Raises
     ------
@@ -214,41 +228,56 @@ def sample(
     random = np.random.default_rng(seed)
     low, high = bounds
     volume, dimensions = float(np.sum(log(high - low))), len(low)
-    x = qmc.scale(qmc.Halton(dimensions, rng=random).random(first), low, high)
+    proposals: list[Kernels | None] = []  # None: even
+    shares: list[float] = []  # logarithms of the numbers of their points, relative to those of a round
+
+    def propose(density: Kernels | None, count: int) -> np.ndarray:
+        """New points within the bounds, shape (n, d), with n up to `count`."""
+        proposals.append(density)
+        shares.append(math.log(count / points))
+        if density is None:
+            return qmc.scale(qmc.Halton(dimensions, rng=random).random(count), low, high)
+        drawn = draw_from(density, count, random)
+        return drawn[((drawn >= low) & (drawn <= high)).all(axis=1)]
+
+    def log_proposal(place: int, at: np.ndarray) -> np.ndarray:
+        """Logarithm of the density of a proposal over the even one, times its share."""
+        density = proposals[place]
+        return shares[place] + (np.zeros(len(at)) if density is None else volume + log_kernels(density, at))
+
+    x = propose(None if near is None else kernels(*near), first)
     factors = log_factors(x)
     if not np.isfinite(factors.sum(axis=-1)).any():
         raise ValueError("no point within the bounds is possible")
-    even = math.log(first / points)
-    mixture = np.full(first, even)  # logarithm of the sum of all proposals over the even one
+    mixture = log_proposal(0, x)  # logarithm of the sum of all proposals
     least = max(LEAST * dimensions, LEAST_SHARE * points)
 
     def tempered(known: np.ndarray, width: float) -> np.ndarray:
         """Weights of the least inflated density that keeps enough effective points, smoothed in units of `known`."""
-        return flattened(lambda place: smoothed(factors[place], x, known, width), len(factors), mixture, least)
 
-    known = tempered(np.full(first, 1.0 / first), 0.0)
-    proposals: list[Kernels] = []
+        def density(place: int) -> np.ndarray:
+            return smoothed(factors[place], x, known, width)
+
+        return flattened(density, len(factors), mixture, least, near is None)
+
+    known = tempered(np.full(len(x), 1.0 / len(x)), 0.0)
     while True:
+        done = len(proposals) - 1
         for width in WIDTHS:
             settled = settle(factors[0], x, mixture, known, width, enough)
-            if settled.size >= enough or width >= WIDTHS[-1] * len(proposals) / rounds:
+            if settled.size >= enough or width >= WIDTHS[-1] * done / rounds:
                 break
-        if settled.size >= enough or len(proposals) == rounds:
+        if settled.size >= enough or done == rounds:
             # A proposal counts as one in `mixture`, and stands for as many points as a round has.
             return settled._replace(log_evidence=settled.log_evidence - math.log(points))
-        if near is not None and not proposals:
-            proposals.append(kernels(near, np.ones(len(near))))
-        else:
-            known = tempered(known, WIDTHS[-1])
-            centres = np.flatnonzero(known > LIGHT * known.max())
-            if len(centres) > CENTRES:
-                centres = random.permutation(centres)[:CENTRES]
-            proposals.append(kernels(x[centres], known[centres]))
-        new = draw_from(proposals[-1], points, random)
-        new = new[((new >= low) & (new <= high)).all(axis=1)]
-        of_new = np.array([np.full(len(new), even), *(volume + log_kernels(one, new) for one in proposals)])
-        of_old = np.column_stack([mixture, volume + log_kernels(proposals[-1], x)])
-        mixture = np.append(log_sum(of_old), log_sum(of_new.T))
+        known = tempered(known, WIDTHS[-1])
+        centres = np.flatnonzero(known > LIGHT * known.max())
+        if len(centres) > CENTRES:
+            centres = random.permutation(centres)[:CENTRES]
+        new = propose(kernels(x[centres], known[centres]), points)
+        of_old = np.column_stack([mixture, log_proposal(-1, x)])
+        of_new = np.column_stack([log_proposal(place, new) for place in range(len(proposals))])
+        mixture = np.append(log_sum(of_old), log_sum(of_new))
         x, factors = np.vstack([x, new]), np.concatenate([factors, log_factors(new)], axis=1)
         known = tempered(np.append(known, np.zeros(len(new))), WIDTHS[-1])
 

@@ -37,8 +37,15 @@ REPEATABLE = 0.25
 HOPELESS = 30.0
 # The search first takes measurements for less accurate than they are, so that it finds its way from far away.
 INFLATIONS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0)
+# The first step of a search: place of its least inflation, most cycles before a measurement and during it, and the
+# effective number of points at which it ends.
+ROUGH, CYCLES, ENOUGH_ROUGH = 2, 20.0, 20.0
+USUAL_ROUNDS = (15, 4)  # of the two steps of a search, after the first round of each
 NUMBERS = ("best", "best_error", "low", "low_error", "high", "high_error")
 WIDE = 0.8  # of the searched range: a wider interval determines nothing
+
+
+Near = tuple[np.ndarray, np.ndarray] | None  # points of a related posterior and their weights, see `sample`
 
 
 class Data(NamedTuple):
@@ -70,37 +77,70 @@ def log_factors(simulated: np.ndarray, data: Data, settings: dict, inflations: t
     return np.array([log_densities(*arguments, inflation) for inflation in inflations])
 
 
+def most_rounds(settings: dict) -> tuple[int, int]:
+    """The largest numbers of rounds of the two steps of a search, after the first round of each."""
+    return settings["rough_rounds"], settings["rounds"]
+
+
+def runs_of_steps(data: Data, settings: dict, rounds: tuple[int, int]) -> np.ndarray:
+    """The numbers of runs of the two steps of one search (see `search_once`) after some rounds of each."""
+    rough, fine = np.minimum(rounds, most_rounds(settings)) * settings["points"]
+    sets = np.array([settings["first"] + rough, settings["points"] + fine])
+    return sets * [settings["rough_parts"], settings["parts"]] * len(data.conditions.rows)
+
+
 def runs_of_search(data: Data, settings: dict) -> int:
-    """The largest number of runs of one search."""
-    sets = settings["first"] + settings["rounds"] * settings["points"]
-    return sets * len(data.conditions.rows) * settings["parts"]
+    """The usual number of runs of one search."""
+    return int(runs_of_steps(data, settings, USUAL_ROUNDS).sum())
 
 
-def search_once(data: Data, settings: dict, number: int, near: np.ndarray | None, threads: int, bar: tqdm) -> Sample:
-    """The sample of one search; its number makes its random numbers differ from those of the others."""
-    best, rounds = -math.inf, 0
+def shortened(conditions: Conditions) -> Conditions:
+    """The same conditions, but with at most CYCLES cycles before the measurement, and as many during it."""
+    most = CYCLES / conditions.rows["frequency"]
+    begin, end = conditions.times.T
+    before = np.minimum(begin, most)
+    return conditions._replace(times=np.column_stack([before, before + np.minimum(end - begin, most)]))
+
+
+def search_once(data: Data, settings: dict, number: int, near: Near, threads: int, bar: tqdm) -> Sample:
+    """The sample of one search; its number makes its random numbers differ from those of the others.
+
+    A posterior may fill a millionth of the bounds, so that most rounds only find the way to it. The first step follows
+    few parts for a short time, and takes measurements for less accurate than they are. The second step begins with
+    what it has found, and follows all parts for the whole time. The posterior comes from the second step alone.
+    """
     sd = deviations(data.velocity, data.sd, data.plate, settings["noise"])
 
-    def worth(few: np.ndarray) -> np.ndarray:
-        nonlocal best
-        log_likelihood = log_factors(few, data, settings, INFLATIONS[:1])[0].sum(axis=1)
-        best = max(best, log_likelihood.max())
-        known = is_known(few, data.velocity, data.of, sd, data.plate)
-        return (log_likelihood > best - HOPELESS)[:, None] & ~known
+    def step(fine: bool, near: Near, first: int, enough: float) -> Sample:
+        conditions, parts = data.conditions, settings["parts"]
+        inflations = INFLATIONS
+        if not fine:
+            conditions, parts, inflations = shortened(conditions), settings["rough_parts"], INFLATIONS[ROUGH:]
+        best, rounds = -math.inf, 0
 
-    def follow(points: np.ndarray) -> np.ndarray:
-        nonlocal rounds
-        options = {"parts": settings["parts"], "seed": [settings["seed"], number, rounds]}
-        options |= {"threads": threads, "worth": worth}
-        simulated = velocities(values_at(points, settings), data.conditions, settings, **options)
-        rounds += 1
-        bar.update(simulated.size)
-        return log_factors(simulated, data, settings, INFLATIONS)
+        def worth(few: np.ndarray) -> np.ndarray:
+            nonlocal best
+            log_likelihood = log_factors(few, data, settings, inflations[:1])[0].sum(axis=1)
+            best = max(best, log_likelihood.max())
+            known = is_known(few, data.velocity, data.of, inflations[0] * sd)
+            return (log_likelihood > best - HOPELESS)[:, None] & ~known
 
-    options = {name: settings[name] for name in ("first", "points", "rounds", "enough")}
+        def follow(points: np.ndarray) -> np.ndarray:
+            nonlocal rounds
+            options = {"parts": parts, "seed": [settings["seed"], number, fine, rounds], "threads": threads}
+            simulated = velocities(values_at(points, settings), conditions, settings, **options, worth=worth)
+            rounds += 1
+            bar.total = max(bar.total, bar.n + simulated.size)
+            bar.update(simulated.size)
+            return log_factors(simulated, data, settings, inflations)
+
+        sizes = {"first": first, "points": settings["points"], "rounds": most_rounds(settings)[fine], "enough": enough}
+        return sample(follow, bounds_of(settings), **sizes, seed=[settings["seed"], number, fine], near=near)
+
     begun = bar.n
-    found = sample(follow, bounds_of(settings), **options, seed=[settings["seed"], number], near=near)
-    bar.total -= runs_of_search(data, settings) - (bar.n - begun)  # the search may have ended early
+    rough = step(False, near, settings["first"], ENOUGH_ROUGH)
+    found = step(True, (rough.points, rough.weights), settings["points"], settings["enough"])
+    bar.total = max(bar.n, bar.total + (bar.n - begun) - runs_of_search(data, settings))
     return found
 
 
@@ -108,26 +148,27 @@ def search(
     data: Data,
     settings: dict,
     *,
-    near: np.ndarray | None = None,
+    near: Near = None,
     searches: tuple[int, int] = (SEARCHES, MOST_SEARCHES),
     threads: int = 1,
     bar: tqdm | None = None,
 ) -> Sample:
     """A weighted sample of the posterior from independent searches, until they agree.
 
-    near : points of a related posterior, in the coordinates of the search space, shape (n, d)
+    near : points of a related posterior, in the coordinates of the search space, shape (n, d), and their weights
     searches : their number at first, which share the effective samples that are wanted, and at most
-    bar : progress over all runs of all searches; it counts the runs of the largest number of searches
+    bar : progress over the usual number of runs of all searches
     """
     first, most = searches
-    bar = progress_bar(total=most * runs_of_search(data, settings), label=None) if bar is None else bar
+    bar = progress_bar(total=first * runs_of_search(data, settings), label=None) if bar is None else bar
     own, samples = settings | {"enough": settings["enough"] / first}, []
     while len(samples) < most:
+        if len(samples) >= first:
+            bar.total += runs_of_search(data, settings)
         samples.append(search_once(data, own, len(samples), near, threads, bar))
         posterior = pooled(samples)
         if first <= len(samples) < most and agree(posterior, settings):
             break
-    bar.total -= (most - len(samples)) * runs_of_search(data, settings)
     return posterior
 
 

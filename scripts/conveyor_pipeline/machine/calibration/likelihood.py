@@ -27,8 +27,9 @@ NEIGHBOUR, WIDENED, OF_ALL = 4, 1.5, 0.4
 FLOOR = 5e-4
 # Share of measurements that may have any velocity; otherwise one mistake in the file would decide everything.
 OUTLIERS = 0.02
-FIRST = 8  # parts that are followed first
-NEAR = 4.0  # standard deviations within which a velocity is the measured one
+FIRST = 4  # parts that are followed first
+# Standard deviations of a measurement within which velocities are alike, and within which one is the measured one.
+ALIKE, NEAR = 0.5, 4.0
 
 
 class Conditions(NamedTuple):
@@ -130,13 +131,13 @@ def velocities(
     return means
 
 
-def is_known(few: np.ndarray, measured: np.ndarray, of: np.ndarray, sd: np.ndarray, plate: np.ndarray) -> np.ndarray:
+def is_known(few: np.ndarray, measured: np.ndarray, of: np.ndarray, sd: np.ndarray) -> np.ndarray:
     """Whether the first parts have one velocity, and it is the measured one, so that more parts tell nothing new.
 
     Parameters
     ----------
     few : velocities under each condition, m/s, shape (n, k, parts)
-    measured, sd, plate : velocities, their standard deviations and the plate's largest velocities, m/s, shape (r,)
+    measured, sd : velocities and their standard deviations, m/s, shape (r,)
     of : number of the condition of each of them, shape (r,)
 
     Returns
@@ -144,7 +145,7 @@ def is_known(few: np.ndarray, measured: np.ndarray, of: np.ndarray, sd: np.ndarr
     known : bool, shape (n, k)
     """
     velocity = few.mean(axis=-1)
-    alike = np.ptp(few, axis=-1)[:, of] <= FLOOR * plate
+    alike = np.ptp(few, axis=-1)[:, of] <= ALIKE * sd
     own = alike & (np.abs(measured - velocity[:, of]) <= NEAR * sd)
     known = np.ones(few.shape[:2], dtype=bool)
     for column, condition in enumerate(of):

@@ -24,7 +24,14 @@ from conveyor.elementary import log
 from conveyor.linear_algebra import dot, product
 from conveyor_pipeline.machine.calibration.effort import EFFECTIVE_OF_EVIDENCE
 from conveyor_pipeline.machine.calibration.importance_sampling import Sample
-from conveyor_pipeline.machine.calibration.inference import Data, centre, draw, runs_of_search, search
+from conveyor_pipeline.machine.calibration.inference import (
+    INFLATIONS,
+    ROUGH,
+    Data,
+    centre,
+    draw,
+    search,
+)
 from conveyor_pipeline.machine.calibration.likelihood import deviations, log_densities, velocities, widths
 from conveyor_pipeline.machine.calibration.measurements import Measurement
 from conveyor_pipeline.machine.calibration.search_space import values_at
@@ -145,10 +152,9 @@ def settings_of_alternatives(data: Data, settings: dict) -> dict[str, dict]:
     }
 
 
-def runs_of_alternatives(data: Data, settings: dict) -> int:
-    """The largest number of runs of the searches with one more parameter."""
-    searches = settings_of_alternatives(data, settings).values()
-    return SEARCHES_OF_ALTERNATIVE[1] * sum(runs_of_search(data, own) for own in searches)
+def searches_of_alternatives(data: Data, settings: dict) -> int:
+    """The largest number of searches with one more parameter."""
+    return SEARCHES_OF_ALTERNATIVE[1] * len(settings_of_alternatives(data, settings))
 
 
 def compare_alternatives(
@@ -158,9 +164,11 @@ def compare_alternatives(
     random = np.random.default_rng(settings["seed"])
     rows = []
     for name, own in settings_of_alternatives(data, settings).items():
-        # What is found without the alternative shows where to begin, with any value of it.
-        known = posterior.points[draw(posterior, settings["samples"])]
-        near = np.column_stack([known, random.uniform(*own["ranges"][name], len(known))])
+        # What is found without the alternative shows where to begin, with any value of it. The first step of a search
+        # takes measurements for less accurate than they are, which widens the posterior by the same factor.
+        middle = centre(posterior.points, posterior.weights)
+        known = middle + INFLATIONS[ROUGH] * (posterior.points - middle)
+        near = np.column_stack([known, random.uniform(*own["ranges"][name], len(known))]), posterior.weights
         other = search(data, own, near=near, searches=SEARCHES_OF_ALTERNATIVE, threads=threads, bar=bar)
         row = {"parameter": name, "unit": UNITS[name], "effective": other.size}
         row |= {"value": math.nan, "log_bayes_factor": math.nan, "preferred": False}

@@ -8,7 +8,16 @@ import pandas as pd
 from conveyor_pipeline.common.templates import format_significant, render
 from conveyor_pipeline.machine.calibration.credible_intervals import CONFIDENCE
 from conveyor_pipeline.machine.calibration.effort import EFFECTIVE, sizes_of
-from conveyor_pipeline.machine.calibration.inference import DETERMINED, NOT_CONVERGED, NOT_DETERMINED, OPEN, REPEATABLE
+from conveyor_pipeline.machine.calibration.inference import (
+    CYCLES,
+    DETERMINED,
+    INFLATIONS,
+    NOT_CONVERGED,
+    NOT_DETERMINED,
+    OPEN,
+    REPEATABLE,
+    ROUGH,
+)
 from conveyor_pipeline.machine.calibration.likelihood import OUTLIERS
 from conveyor_pipeline.machine.calibration.measurements import DEFAULTS, first_comments
 from conveyor_pipeline.machine.calibration.model_check import DECISIVE, SIGNIFICANCE, UNLIKELY
@@ -18,6 +27,7 @@ SHOWN = 9  # amplitudes in the table of predicted velocities
 # Names of the parameters in sentences.
 NAMES = {"friction": "friction coefficient", "damping": "contact damping", "stiffness": "contact stiffness"}
 CONSTANTS = {"confidence": CONFIDENCE, "decisive": DECISIVE, "outliers": OUTLIERS, "significance": SIGNIFICANCE}
+CONSTANTS |= {"cycles": CYCLES, "inflation": INFLATIONS[ROUGH]}
 WORTH = 0.02  # expected narrowing from which one more measurement is recommended
 
 
