@@ -58,12 +58,10 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/builds.smk"
 
 
-# All that this config has. Of another conveyor, figures and claims of the paper are made by name only.
 rule all:
+    """All that this config has. Of another conveyor, figures and claims of the paper are made by name only."""
     default_target: True
     input:
         [figure_files(), caption_files(), BUILD_RECORDS] if IS_PAPER else [],
         FLOOR_FILES,
     localrule: True
-    message:
-        "All files of this config are up to date"

@@ -48,6 +48,7 @@ rule check_results:
 
 # The last job, which runs alone: it needs one core, but records how many there are.
 rule provenance:
+    """The manifest of all results; commit, config, versions and processor of the build."""
     input:
         BUILT_FILES,
         CHECKED,
@@ -70,7 +71,5 @@ rule provenance:
         config=hashlib.sha256(json.dumps(config).encode()).hexdigest(),
         benchmarks=result("benchmarks"),
         logs=result("logs"),
-    message:
-        "The manifest of all results; commit, config, versions and processor of the build"
     script:
         "../../scripts/conveyor_pipeline/make.py"

@@ -34,6 +34,7 @@ BUILT = []  # files of a build besides figures, captions and their tables
 TESTED = []  # beginnings of the names of tables that tests of the results read
 TIMED = []  # kinds of tables with measured times, which differ from build to build
 TIMED_PAGES = []  # pages with measured times
+PRECISION = {}  # the tables of errors and of times of all methods, by scene
 
 
 # -- names of files ----------------------------------------------------------------------------------------------------

@@ -14,8 +14,6 @@ rule plot:
         benchmark_file("figures/{figure}")
     wildcard_constraints:
         figure=one_of([*FIGURES, *NO_FIGURES]),
-    resources:
-        mem_mb=1500,
     params:
         settings=lambda wildcards: settings_of_figure(wildcards.figure),
         expected=expected,

@@ -53,14 +53,14 @@ def prefix(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
             f"model.{name} = {model[name]!r} differs from the paper's model, whose results have no prefix; give the "
             "config one, such as prefix: mine"
         )
+
+
+def measured_files(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     for section, key in MEASURED_FILES.items():
-        if key in config[section] and not config["prefix"]:
+        path = config[section].get(key, "")
+        if path and not config["prefix"]:
             yield f"{section}.{key} needs a folder for its results; give the config a prefix"
-
-
-def file_names(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    for section, key in MEASURED_FILES.items():
-        if set("{}") & set(path := config[section].get(key, "")):
+        if set("{}") & set(path):
             remedy = "rename the file or folder"
             yield f"{section}.{key} = {path!r} has braces, which Snakemake takes for a wildcard; {remedy}"
 
@@ -221,7 +221,7 @@ def unused_keys(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
                     yield f"{section}.{figure}.{key}.{name} is an unknown key; {suggest_name(name, known)}"
 
 
-CHECKS = (prefix, file_names, methods, axes, friction, sweeps, steps, unknown_tables, figures, unused_keys)
+CHECKS = (prefix, measured_files, methods, axes, friction, sweeps, steps, unknown_tables, figures, unused_keys)
 
 
 @cache

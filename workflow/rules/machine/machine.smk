@@ -19,8 +19,7 @@ FLOOR_FILES += MACHINE_FILES
 
 
 rule machine:
+    """The answers for this machine."""
     input:
         MACHINE_FILES,
     localrule: True
-    message:
-        "The answers for this machine are up to date"

@@ -118,23 +118,6 @@ rule start:
         "../../../scripts/conveyor_pipeline/make.py"
 
 
-rule start_page:
-    """What follows for switching the drive, in words."""
-    input:
-        **tables_of("operating/advice", *(f"operating/{name}" for name in START_TABLES)),
-        template=source("workflow/templates/start.md"),
-    output:
-        page=result("start.md"),
-    log:
-        log_file("operating/start_page"),
-    benchmark:
-        benchmark_file("operating/start_page")
-    params:
-        **stage("conveyor_pipeline.machine.operating.start_page"),
-    script:
-        "../../../scripts/conveyor_pipeline/make.py"
-
-
 rule throws:
     """Motions of several conveyors over the throw number."""
     output:
@@ -200,18 +183,27 @@ rule drive:
         "../../../scripts/conveyor_pipeline/make.py"
 
 
-rule drive_page:
-    """The recommended settings of the drive in words."""
+# The tables from which the pages on request are made.
+ON_REQUEST = {
+    "start": tables_of("operating/advice", *(f"operating/{name}" for name in START_TABLES)),
+    "drive": tables_of("operating/drive_front", "operating/drive_generations"),
+}
+
+
+rule operating_page:
+    """Switching the drive, or its recommended settings, in words."""
     input:
-        **tables_of("operating/drive_front", "operating/drive_generations"),
-        template=source("workflow/templates/drive.md"),
+        unpack(lambda wildcards: ON_REQUEST[wildcards.page]),
+        template=source("workflow/templates/{page}.md"),
     output:
-        page=result("drive.md"),
+        result("{page}.md"),
     log:
-        log_file("operating/drive_page"),
+        log_file("operating/{page}_page"),
     benchmark:
-        benchmark_file("operating/drive_page")
+        benchmark_file("operating/{page}_page")
+    wildcard_constraints:
+        page=one_of(ON_REQUEST),
     params:
-        **stage("conveyor_pipeline.machine.operating.drive_page"),
+        **stage("conveyor_pipeline.machine.operating.{page}_page"),
     script:
         "../../../scripts/conveyor_pipeline/make.py"

@@ -4,7 +4,6 @@ from pathlib import Path
 from conveyor import __version__
 from conveyor_pipeline.config.schema import json_schema
 from conveyor_pipeline.config.stages import STAGES
-from conveyor_pipeline.config.tables import FAMILIES
 
 
 include: "common.smk"
@@ -29,11 +28,7 @@ PAGES = {
 # The tables behind the facts, by their roles in scripts/conveyor_pipeline/pages/facts.py.
 FACTS = {
     **tables_of("results/claims", "lyapunov/spectrum", "orbits/cascade"),
-    **{
-        f"{name}{kind.removeprefix('precision')}": table(f"{kind}/{name}")
-        for kind, (names, _) in FAMILIES.items()
-        for name in names
-    },
+    **PRECISION,
     **PAGES["certificates"],
     "edge": table("critical/edge"),
     "edge_euler": table("critical/edge_euler"),

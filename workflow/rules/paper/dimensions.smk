@@ -12,8 +12,6 @@ rule dimensions:
     wildcard_constraints:
         name=one_of(config["dimensions"]),
     threads: THREADS
-    resources:
-        mem_mb=2000,
     params:
         **stage("conveyor_pipeline.paper.dimensions.portraits", "dimensions/{name}"),
     script:

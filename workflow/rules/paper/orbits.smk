@@ -12,8 +12,6 @@ rule estimates:
     wildcard_constraints:
         name=one_of(config["estimates"]),
     threads: THREADS
-    resources:
-        mem_mb=2000,
     params:
         **stage("conveyor_pipeline.paper.orbits.estimates", "estimates/{name}"),
     script:
@@ -47,9 +45,6 @@ rule certificates:
     benchmark:
         benchmark_file("orbits/certificates")
     threads: THREADS
-    resources:
-        mem_mb=1500,
-        runtime=60,
     params:
         **stage("conveyor_pipeline.paper.orbits.certified", "orbits/certificates"),
     script:
@@ -99,8 +94,6 @@ rule estimators:
     wildcard_constraints:
         name="stability_estimates|moved_impacts",
     threads: THREADS
-    resources:
-        runtime=60,
     params:
         **stage("conveyor_pipeline.paper.orbits.{name}", "results/{name}"),
     script:

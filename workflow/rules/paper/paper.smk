@@ -25,10 +25,9 @@ TIMED += ["certificate_times"]
 
 
 rule paper:
+    """The figures of the paper and its claims."""
     input:
         figure_files(PAPER_FIGURES),
         caption_files(PAPER_FIGURES),
         CLAIM_FILES,
     localrule: True
-    message:
-        "The figures of the paper and its claims are up to date"

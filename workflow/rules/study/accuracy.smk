@@ -3,8 +3,7 @@
 from conveyor_pipeline.study.accuracy import scenes
 from conveyor_pipeline.study.accuracy.budgeted import budgeted_entries, budgeted_tables
 
-# The tables of errors and of times, by scene.
-PRECISION = {
+PRECISION |= {
     f"{scene}{ending}": table(f"precision{ending}/{scene}") for scene in scenes.SCENES for ending in ("", "_times")
 }
 
@@ -67,8 +66,6 @@ rule accuracy:
     wildcard_constraints:
         name=one_of(COMPARED_TABLES),
     threads: THREADS
-    resources:
-        runtime=60,
     params:
         **stage("conveyor_pipeline.study.accuracy.{name}", "results/{name}"),
     script:

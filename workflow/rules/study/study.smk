@@ -13,9 +13,8 @@ TIMED_PAGES += [result("benchmark.md")]
 
 
 rule study:
+    """The figures about methods."""
     input:
         figure_files(STUDY_FIGURES),
         caption_files(STUDY_FIGURES),
     localrule: True
-    message:
-        "The figures about methods are up to date"
