@@ -156,6 +156,10 @@ WRONG = [
         "regressions.height.bounds.A = [0.03, 0.0] is",
     ),
     (
+        {"regressions": {"height": {"bounds": {"B": [-35.0, 0.0]}}}},
+        "regressions.height.bounds.B from -35.0 to 0.0 m/s² has a pole of Eq. 13",
+    ),
+    (
         {"regressions": {"height": {"critical": "edgee"}}},
         "regressions.height.critical = 'edgee' is unknown; did you mean edge?",
     ),

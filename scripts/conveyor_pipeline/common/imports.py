@@ -55,39 +55,30 @@ def file_of(module: str, name: str | None, root: Path) -> Path | None:
 
 
 @cache
-def direct_imports(file: Path, root: Path, own: str = "") -> tuple[frozenset[Path], frozenset[str]]:
+def direct_imports(file: Path, root: Path) -> tuple[frozenset[Path], frozenset[str]]:
     """The files of this project that a file imports, and the top-level names of all other packages.
 
     A package's __init__ counts only if it defines the name that is taken from it: `from conveyor.solver import model`
     does not depend on what conveyor/__init__.py offers, and `from conveyor import sweep` depends on the module of
-    `sweep` alone, which conveyor/__init__.pyi names.
-
-    Parameters
-    ----------
-    root : the folder in which absolute imports begin
-    own : the package that counts as this project; by default all modules below `root` do
+    `sweep` alone, which conveyor/__init__.pyi names. Absolute imports begin in the folder `root`.
     """
     files, packages = set(), set()
     for module, name in imported_names(file, root):
-        top = module.split(".")[0]
-        source = None
-        if own in ("", top):
-            source = file_of(module, name, root)
-        if source:
+        if source := file_of(module, name, root):
             files.add(source)
         else:
-            packages.add(top)
+            packages.add(module.split(".")[0])
     return frozenset(files), frozenset(packages)
 
 
-def all_imports(start: Iterable[Path], root: Path, own: str = "") -> tuple[list[Path], list[str]]:
+def all_imports(start: Iterable[Path], root: Path) -> tuple[list[Path], list[str]]:
     """The files that some files import at any depth, with these files, and the other packages; both sorted."""
     files, packages, waiting = set(), set(), list(start)
     while waiting:
         file = waiting.pop()
         if file not in files:
             files.add(file)
-            more_files, more_packages = direct_imports(file, root, own)
+            more_files, more_packages = direct_imports(file, root)
             waiting.extend(more_files)
             packages |= more_packages
     return sorted(files), sorted(packages)

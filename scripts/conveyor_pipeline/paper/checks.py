@@ -1,9 +1,10 @@
 """Contradictions in the sections of the floor paper, as in config/checks.py."""
 
+import math
 from collections.abc import Iterator
 
 from conveyor_pipeline.config.checks import faults_of_names
-from conveyor_pipeline.config.entries import by_methods, resolve, values_of, variants
+from conveyor_pipeline.config.entries import by_methods, ends, resolve, values_of, variants
 from conveyor_pipeline.paper.claims.statements import read_claims
 
 
@@ -47,6 +48,18 @@ def orbits(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
             )
 
 
+def regressions(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """Values of B at which the pole of Eq. 13, at the amplitude -B, lies between the fitted amplitudes."""
+    for name, entry in config["regressions"].items():
+        least, largest = entry.get("acceleration", (math.inf, math.inf))
+        for key, (low, high) in (("bounds.B", entry["bounds"]["B"]), ("valley", ends(entry["valley"]))):
+            if low + least <= 0.0 <= high + largest:
+                yield (
+                    f"regressions.{name}.{key} from {low!r} to {high!r} m/s² has a pole of Eq. 13 within "
+                    f"regressions.{name}.acceleration; begin above {-least!r}, or end below {-largest!r}"
+                )
+
+
 def dimensions(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     for name, entry in config["dimensions"].items():
         methods = {variant.get("method", config["solver"]["method"]) for variant in variants(name, entry).values()}
@@ -67,4 +80,4 @@ def unknown_names(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     yield from faults_of_names(used)
 
 
-CHECKS = (perturbations, critical, times, orbits, dimensions, unknown_names)
+CHECKS = (perturbations, critical, times, orbits, regressions, dimensions, unknown_names)

@@ -70,7 +70,7 @@ def test_a_new_module_gives_a_new_folder(library):
 
 def test_modules_of_the_solver_import_only_what_their_folder_is_named_by():
     for file in machine_code.SOLVER.rglob("*.py"):
-        used, _ = direct_imports(file, machine_code.LIBRARY.parent, machine_code.LIBRARY.name)
+        used, _ = direct_imports(file, machine_code.LIBRARY.parent)
         named_by = {*(machine_code.LIBRARY / name for name in machine_code.SHARED), *machine_code.SOLVER.rglob("*.py")}
         assert used <= named_by | {machine_code.LIBRARY / "__init__.py"}, file
 

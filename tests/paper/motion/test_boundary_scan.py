@@ -1,12 +1,10 @@
 """Edges of basins over z0: made-up states with known edges, and the paper's two critical heights."""
 
-import doctest
 import math
 
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, parameter_table
 from conveyor.analysis.attractors import labels
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.paper.motion import boundary_scan
@@ -89,12 +87,6 @@ def test_only_some_of_many_changes_are_located(monkeypatch):
     assert sum(decided) <= 2 * (len(HEIGHTS) + 4 * halvings) < 1.1 * sum(decided)
 
 
-@pytest.mark.parametrize(("heights", "resolution"), [([0.0], 1e-9), ([1e-4, 0.0], 1e-9), ([0.0, 1e-4], 0.0)])
-def test_unusable_arguments_are_named(heights, resolution):
-    with pytest.raises(ValueError, match=r"heights|resolution"):
-        boundary_scan.find_crossings(conveyors(30.0), np.array(heights), monotone, resolution)
-
-
 def test_the_paper_s_critical_heights():
     """0.13 mm at 35 m/s² and 0.07 mm at 40 m/s² (Sect. 3.2); both sides lead to different states."""
     parameters = conveyors(35.0, 40.0)
@@ -125,8 +117,3 @@ def test_bisection_ends_at_neighbouring_numbers():
     rows["z0"] = 1.01e-4
     (height,) = boundary_scan.locate_change(rows, "z0", 2e-5, monotone, 1e-30)
     assert height == pytest.approx(1e-4, rel=1e-15)
-
-
-def test_examples():
-    names = {"np": np, "Conveyor": Conveyor, "classify": labels.classify, "parameter_table": parameter_table}
-    assert not doctest.testmod(boundary_scan, extraglobs=names).failed
