@@ -1,7 +1,6 @@
 """Products of axes as parameter vectors."""
 
 import numpy as np
-import pytest
 
 from conveyor import Conveyor, Start, conveyor_and_start
 from conveyor_pipeline.common import grid
@@ -32,18 +31,3 @@ def test_parts_of_a_product_make_the_whole():
     assert np.concatenate([part for _, part in parts]).tobytes() == parameters.tobytes()
     for name, column in columns.items():
         np.testing.assert_array_equal(np.concatenate([part[name] for part, _ in parts]), column)
-
-
-@pytest.mark.parametrize(
-    ("axes", "message"),
-    [
-        ({"mass": []}, "axis mass is empty"),
-        ({"angle": [12.0]}, "angle = 12.0 is outside"),
-        ({"angle": {"start": 0.0, "stop": 12.0, "num": 2}}, "angle"),
-        ({"tension": ["pull"]}, "tension = 'pull' is not one of"),
-        ({"acceleration": ["conveyor"]}, "acceleration must be a number"),
-    ],
-)
-def test_wrong_axes_are_named(axes, message):
-    with pytest.raises(ValueError, match=message):
-        grid.product(axes, {})

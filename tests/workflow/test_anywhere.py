@@ -78,28 +78,6 @@ def test_a_rule_of_the_module_works_alone(tmp_path, rule):
     snakemake(tmp_path, "--list-rules")
 
 
-CHANGED = """
-use rule * from conveyor as conveyor_*
-use rule motion from conveyor as my_motion with:
-    output: "mine/{section}/{name}.parquet"
-    log: "mine/{section}/{name}.log"
-    benchmark: "mine/{section}/{name}.tsv"
-use rule plot from conveyor as conveyor_plot with:
-    message: "Draw it"
-"""
-
-
-def test_rules_of_the_module_with_changes(tmp_path):
-    """Snakemake reads the Snakefile of the module once for each `use rule`."""
-    (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + CHANGED)
-    (tmp_path / "config.yaml").write_text("figures: {fig05: {section: mine}}")
-    targets = ("mine/signals/below_above.parquet", "figures/fig05.pdf")
-    stdout = snakemake(tmp_path, "--dry-run", *targets, "--configfile", "config.yaml")
-    jobs = dict(re.findall(r"^(\w+) +(\d)$", stdout, re.MULTILINE))
-    assert jobs == {"conveyor_motion": "2", "conveyor_plot": "1", "my_motion": "1", "total": "4"}
-    assert "Draw it" in stdout
-
-
 def test_nested_values_of_the_command_line_reach_the_module(tmp_path):
     (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + "use rule * from conveyor")
     run = call_snakemake("--dry-run", "figures/fig05.pdf", "--config", "model={damping: -0.2}", folder=tmp_path)

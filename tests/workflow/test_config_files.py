@@ -21,8 +21,7 @@ from project import (
     read_config,
 )
 
-from conveyor_pipeline.config import ConfigError, canonical, load_config
-from conveyor_pipeline.config.entries import METHOD_SECTIONS, by_methods, resolve
+from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.files import DEFAULT_FILES, read
 
 FAULTS = [
@@ -60,18 +59,6 @@ def test_files_are_yaml_1_2(tmp_path):
     file = tmp_path / "mine.yaml"
     file.write_text("a: 010\nb: 1:30\nc: 1e-8\nd: yes\n")
     assert read(file) == {"a": 10, "b": "1:30", "c": 1e-8, "d": "yes"}
-
-
-def test_merge_keys_are_read(tmp_path):
-    file = tmp_path / "mine.yaml"
-    file.write_text("a: &a {b: 1}\nc: {<<: *a, d: 2}\n")
-    assert read(file) == {"a": {"b": 1}, "c": {"b": 1, "d": 2}}
-
-
-def test_json_is_a_config(tmp_path):
-    file = tmp_path / "mine.json"
-    file.write_text('{\n\t"model": {"mass": 0.001, "z0": 0},\n\t"sweeps": {}\n}\n')
-    assert read(file) == {"model": {"mass": 0.001, "z0": 0}, "sweeps": {}}
 
 
 @pytest.mark.parametrize("file", [*CONFIG_FILES, "config", "reduced"])
@@ -129,33 +116,6 @@ def test_an_error_has_six_lines():
     with pytest.raises(ConfigError, match="The config cannot be used") as error:
         load_config(DEFAULT_FILES, [], overlay)
     assert len(str(error.value).splitlines()) <= 6
-
-
-def test_the_config_of_the_paper_is_in_canonical_form():
-    """Otherwise tables would change, because rules pass keys in this order and numbers of these types."""
-    config = plain(read_config())
-    found = canonical(config)
-    # Dimensionless settings become values in SI units.
-    in_si = [section for section in config if "dimensionless" not in written(config[section])]
-    assert len(in_si) > 20
-    for section in in_si:
-        assert found[section] == config[section]
-        assert section in METHOD_SECTIONS or written(found[section]) == written(config[section])
-    found, config = by_methods(found), by_methods(config)
-    for section in METHOD_SECTIONS:
-        for name in config[section]:
-            assert written(resolve(found, section, name)) == written(resolve(config, section, name))
-
-
-def written(value) -> str:
-    return yaml.safe_dump(value, sort_keys=False)
-
-
-def plain(value):
-    """A copy of the value at each place where YAML has an anchor."""
-    if isinstance(value, dict):
-        return {key: plain(item) for key, item in value.items()}
-    return [plain(item) for item in value] if isinstance(value, list) else value
 
 
 @pytest.fixture(scope="module")

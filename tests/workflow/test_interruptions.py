@@ -1,4 +1,4 @@
-"""Interrupted runs: a closed terminal leaves nothing behind; a kill leaves a lock, which --unlock removes."""
+"""Interrupted runs: a closed terminal leaves nothing behind."""
 
 import os
 import signal
@@ -34,12 +34,3 @@ def test_a_closed_terminal_leaves_no_lock_and_no_process(built, end):
     with pytest.raises(ProcessLookupError):
         os.killpg(process.pid, 0)
     project.make_in_process(target)
-
-
-def test_a_killed_run_continues_after_unlock(built):
-    project, target, _ = ended(built, "killed", lambda pid: os.killpg(pid, signal.SIGKILL))
-    run = project.snakemake(target)
-    assert run.returncode != 0
-    assert "--unlock" in run.stdout
-    assert project.snakemake("--unlock").returncode == 0
-    project.make_in_process(target, "--rerun-incomplete")

@@ -7,9 +7,7 @@ import yaml
 from project import ROOT, Project, merged, read_config
 
 from conveyor_pipeline.config import ConfigError, load_config, problems
-from conveyor_pipeline.config.entries import NORMAL
 from conveyor_pipeline.config.files import DEFAULT_FILES
-from conveyor_pipeline.config.tables import TABLES, references, settings_of
 
 # The examples that describe a whole conveyor: the contact of `measured` is not known, nor the drive of `accelerometer`.
 EXAMPLES = {
@@ -69,28 +67,6 @@ def test_axes_of_the_paper_are_what_the_config_says(name):
         assert own[section] == paper[section]
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
-def test_examples_are_short_and_unlike_the_paper(name):
-    assert len(EXAMPLES[name].read_text().splitlines()) <= 24
-    overlay = yaml.safe_load(EXAMPLES[name].read_text())
-    assert overlay["prefix"] == name
-    own, paper = load(overlay)["model"], load({})["model"]
-    assert len([key for key, value in own.items() if value != paper.get(key)]) >= 5
-
-
-@pytest.mark.parametrize(
-    ("model", "told"),
-    [
-        ({"mass": -1.0}, "model.mass = -1.0 should be at least"),
-        ({"weight": 1.0, "mass": 1.0}, "model.weight is an unknown key"),
-        (3, "model = 3 should be a valid mapping"),
-    ],
-)
-def test_an_impossible_conveyor_is_reported(model, told):
-    with pytest.raises(ConfigError, match=re.escape(told)):
-        load({"prefix": "mine", "model": model})
-
-
 def test_figures_of_the_paper_are_drawn_for_another_conveyor_if_named(tmp_path):
     figures = [f"fig{number:02d}" for number in range(1, 25)]
     targets = [f"figures/mine/{figure}.pdf" for figure in figures]
@@ -127,19 +103,3 @@ def test_figures_and_captions_of_another_conveyor_have_no_marks_and_remarks_of_t
     assert "of a part on this conveyor over" in caption and "To the eye" not in caption
     of_paper = " ".join((project.folder / "results/captions/fig03.rst").read_text().split())
     assert "of a part on the paper's conveyor over" in of_paper and "To the eye" in of_paper
-
-
-@pytest.mark.parametrize("changed", [{"phase_shift": 0.5}, {"friction": 0.2}, {"static_friction": 0.3}])
-def test_tables_of_the_normal_motion_stay_when_only_the_motion_along_the_track_changes(changed):
-    reduced = read_config("reduced")
-    paper, own = (load(merged(reduced, {"model": model})) for model in ({}, changed))
-    normal = [
-        *(f"sweeps/{name}" for name, entry in paper["sweeps"].items() if entry.get("needs") == "vertical"),
-        *(f"{section}/{name}" for section in NORMAL for name in paper[section]),
-        *("regressions/height", "estimates/height", "results/settling_times", "sensitivity/continued"),
-        *(name for name in TABLES if name.startswith(("orbits/", "attractors/", "lyapunov/"))),
-    ]
-    found = [name for name in normal if name in references(own)]
-    assert len(found) > 20
-    assert [name for name in found if settings_of(paper, name) != settings_of(own, name)] == []
-    assert settings_of(paper, "sweeps/amplitudes") != settings_of(own, "sweeps/amplitudes")

@@ -62,12 +62,6 @@ def test_results_are_checked_by_the_interpreter_that_runs_snakemake(tmp_path, mo
         check_results.make("results", {}, "tests/results")
 
 
-def test_results_are_checked_in_as_many_processes_as_the_job_has_threads(tmp_path):
-    test = tmp_path / "test_one.py"
-    test.write_text("import os\n\ndef test_one():\n    assert os.environ['PYTEST_XDIST_WORKER_COUNT'] == '3'\n")
-    assert check_results.make("results", {}, str(test), threads=3) == "1 passed\n"
-
-
 def test_no_rule_finds_its_command_on_the_path():
     """Commands of `shell:` would be looked up there; scripts run with Snakemake's own interpreter."""
     rules = list((ROOT / "workflow/rules").rglob("*.smk"))

@@ -1,30 +1,11 @@
-"""Every script can be imported without Snakemake; a table has the schema of its output."""
+"""The script of all rules: a table has the schema of its output."""
 
-import importlib
-import os
 from types import SimpleNamespace
 
 import pytest
-from project import ROOT
 
 from conveyor_pipeline import make
 from conveyor_pipeline.common import fields
-
-SCRIPTS = ROOT / "scripts"
-MODULES = sorted(
-    ".".join(path.relative_to(SCRIPTS).with_suffix("").parts)
-    for path in SCRIPTS.rglob("*.py")
-    # The declarations of settings belong to the workflow, which imports them as modules of the package `scripts`.
-    if path.name not in ("__init__.py", "settings.py", "table_settings.py") and "conveyor" not in path.parts
-)
-
-
-@pytest.mark.parametrize("name", MODULES)
-def test_a_script_is_a_module(name):
-    before = {"MPLBACKEND": "agg"} | os.environ
-    assert importlib.import_module(name)
-    # Importing it does not change the settings of the process, except for the backend of Matplotlib.
-    assert {"MPLBACKEND": "agg"} | os.environ == before
 
 
 class Outputs(list):

@@ -6,7 +6,7 @@ import pytest
 from conveyor import Conveyor, Start, simulate
 from conveyor.solver.model import plate_motion
 from conveyor_pipeline.common import fields, tables
-from conveyor_pipeline.paper.motion import impacts, signals, spectra
+from conveyor_pipeline.paper.motion import signals, spectra
 
 MODEL = {"z0": 0.0, "vz0": 0.0}
 
@@ -67,18 +67,6 @@ def test_spectrum_of_chaos_is_windowed():
     entry = settings(axes={"acceleration": [80.0]}, duration=1.0)
     table = frame(spectra, entry)
     assert sorted(table.frequency.unique())[1] == pytest.approx(4.0)
-
-
-def test_starts_and_their_images_lead_to_the_same_state():
-    entry = settings(axes={"psi0": [0.0, 3.0], "z0": [0.0, 4e-4]})
-    entry["model"] = {"vz0": 0.0}
-    table = frame(impacts, entry)
-    below = table.query("psi0 == 3.0 and z0 == 0.0")
-    assert below.impact_time.isna().all() and below.mapped_state.isna().all()
-    above = table.drop(below.index)
-    assert len(above) == 3
-    assert (above.state == above.mapped_state).all()
-    assert table.query("psi0 == 0.0").state.tolist() == ["first", "second"]
 
 
 def test_a_spectrum_covers_the_last_period():

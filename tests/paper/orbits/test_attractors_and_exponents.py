@@ -1,8 +1,5 @@
 """Strobes and exponents at a few amplitudes where they are known."""
 
-from collections import namedtuple
-from types import SimpleNamespace
-
 import numpy as np
 import pandas as pd
 import pytest
@@ -57,14 +54,6 @@ def test_a_resting_part_has_the_static_penetration(tables):
     assert up.period.unique().tolist() == [1]
 
 
-def test_exponents_sum_to_the_damping_in_contact(tables):
-    _, spectrum = tables
-    loss = -MODEL["damping"] / MODEL["mass"] * spectrum.contact_fraction
-    assert (spectrum.lambda_1 + spectrum.lambda_2).to_numpy() == pytest.approx(loss.to_numpy(), abs=1e-6)
-    rest = spectrum[spectrum.acceleration == 0.0]
-    assert rest.lambda_1.to_numpy() == pytest.approx(-MODEL["damping"] / (2.0 * MODEL["mass"]), rel=1e-3)
-
-
 def test_only_chaos_has_a_positive_exponent(tables):
     _, spectrum = tables
     positive = spectrum.lambda_1 > SIGNIFICANT * spectrum.stderr
@@ -98,22 +87,6 @@ def test_a_search_without_a_stable_orbit_leaves_the_tables_empty():
     settings["seeds"] = []
     tables = branches.make(settings)
     assert {len(column) for table in tables.values() for column in table.values()} == {0}
-
-
-def test_orbits_on_a_known_branch_start_no_new_branch(monkeypatch):
-    """The branch of the orbit of one cycle leads to the doubled branch, on which the other orbit lies."""
-    branch = namedtuple("Branch", "name orbits")
-    periods = {"double": 2, "once": 1, "apart": 2}
-    starts = [SimpleNamespace(name=name, period=period) for name, period in periods.items()]
-    found = {"once": ["once", "double"], "apart": ["apart"], "double": ["double"]}
-    monkeypatch.setattr(branches, "on_branch", lambda branch, orbit: branch.name == orbit.name)
-    monkeypatch.setattr(
-        branches,
-        "explore_bifurcations",
-        lambda seeds, *rest: [branch(one, [one]) for seed in seeds for one in found[seed.name]],
-    )
-    settings = {"seeds": [], "limits": [20.0, 90.0], "max_period": 2}
-    assert [one.name for one in branches.explore_branches(starts, settings)] == ["once", "double", "apart"]
 
 
 def test_no_branch_is_followed_after_the_largest_number_of_orbits(monkeypatch):

@@ -22,11 +22,6 @@ def test_limits_of_a_hardly_damped_contact():
     assert stability.stability_limit("rk4", stiffness, damping, MASS) * omega == pytest.approx(math.sqrt(8.0), rel=1e-3)
 
 
-def test_an_unknown_method_has_no_limit():
-    with pytest.raises(ValueError, match="unheard"):
-        stability.stability_limit("unheard", 1e5, 0.3, MASS)
-
-
 def test_a_method_without_a_stability_polynomial_has_no_limit(monkeypatch):
     monkeypatch.setitem(stability.fixed_step.GROWTH, "rk4", None)
     assert math.isnan(stability.stability_limit("rk4", 1e5, 0.3, MASS))

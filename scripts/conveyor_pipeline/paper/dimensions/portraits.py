@@ -12,8 +12,6 @@ TABLES = {
     "dimensions": (
         fields.number("dimension", "1", "dimension of the phase portrait ż_p over z_p (Eq. 25); null for no estimate"),
         fields.number("error", "1", "half-width of its 95 % interval; null if the points resolve too few scales"),
-        fields.number("scale_low", "1", "smallest scale of the scaling region, in units of the portrait's extent"),
-        fields.number("scale_high", "1", "largest scale of the scaling region, in units of the portrait's extent"),
         fields.text("status", "ok, or why there is no dimension"),
     ),
 }
@@ -53,15 +51,14 @@ def estimate(points: np.ndarray, settings: dict) -> Dimension:
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of a table of dimensions for the resolved `settings` of an entry of the config."""
     axes, parameters = grid.product(settings["axes"], settings["model"])
-    results = np.empty((len(parameters), 4))
+    results = np.empty((len(parameters), 2))
 
     def work(begin, end):
         for i in range(begin, end):
-            results[i] = estimate(portrait(parameters[i], settings), settings)[:4]
+            results[i] = estimate(portrait(parameters[i], settings), settings)[:2]
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=1, progress=progress)
-    value, error, *scales = results.T
+    value, error = results.T
     wide = (error > LARGEST_ERROR) & (settings["estimator"] != "paper")
     status = np.select([np.isnan(value), wide], ["too few scales", "interval too wide"], "ok")
-    columns = dict(zip(("scale_low", "scale_high"), scales, strict=True))
-    return axes | {"dimension": np.where(wide, np.nan, value), "error": error, **columns, "status": status}
+    return axes | {"dimension": np.where(wide, np.nan, value), "error": error, "status": status}

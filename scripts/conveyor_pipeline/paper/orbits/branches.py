@@ -42,7 +42,6 @@ TABLES = {
         fields.number("multiplier", "1", "the multiplier at -1"),
         fields.number("ratio", "1", "distance to the previous doubling over distance to the next (Feigenbaum: 4.669…)"),
         fields.number("accumulation", "m/s²", "accumulation point of the doublings so far, by Aitken's process"),
-        fields.number("accumulation_error", "m/s²", "change of the accumulation point by the last doubling"),
     ),
 }
 
@@ -208,9 +207,9 @@ def cascade_rows(cascade: list[Bifurcation]) -> list[dict]:
     ratios = [np.nan, *doubling_ratios(amplitudes), np.nan]
     rows = []
     for n, (bifurcation, ratio) in enumerate(zip(cascade, ratios, strict=True), start=1):
-        limit, error = accumulation_point(amplitudes[:n])
+        limit, _ = accumulation_point(amplitudes[:n])
         about = {"number": n, "multiplier": bifurcation.multiplier, "ratio": ratio}
-        rows.append({**describe(bifurcation.orbit), **about, "accumulation": limit, "accumulation_error": error})
+        rows.append({**describe(bifurcation.orbit), **about, "accumulation": limit})
     return rows
 
 

@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 
 from conveyor import (
-    UNITS,
     accumulation_point,
     amplitude_of,
     classify,
@@ -29,12 +28,9 @@ TABLES = {
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
         fields.number("z0", "m", "initial height; null for bifurcations"),
         *COLUMNS,
-        fields.text("moved", "quantity that changes: acceleration or z0"),
-        fields.text("moved_unit", "unit of the quantity"),
+        fields.text("moved", "quantity that changes: acceleration (m/s²) or z0 (m)"),
         fields.text("parameter", "varied parameter; all remaining ones are constant"),
-        fields.number(
-            "change", "see moved_unit", "change by 1 % of the parameter: half the difference of +1 % and -1 %"
-        ),
+        fields.number("change", "see moved", "change by 1 % of the parameter: half the difference of +1 % and -1 %"),
         fields.number("elasticity", "1", "relative change of the quantity by that of the parameter; null if it is 0"),
         fields.text("status", "ok, or the reason for no result"),
     ),
@@ -198,7 +194,6 @@ def rows_of_point(point: MovedPoint) -> Iterator[dict]:
             "doubling": point.doubling,
             "rides": point.rides,
             "moved": point.quantity,
-            "moved_unit": UNITS[point.quantity],
             "parameter": name,
             "change": change,
             "elasticity": change / (PART * moved) if moved != 0.0 else np.nan,

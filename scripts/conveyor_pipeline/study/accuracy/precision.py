@@ -36,7 +36,6 @@ TABLES = {
         fields.number("velocity_error", "1", "relative error of the mean velocity"),
         fields.number("state_error", "1", "largest error of ẋ, z, ż at the end, in units of the plate's motion"),
         fields.number("trajectory_error", "1", "rms error of x and z at fixed times, in units of the plate's motion"),
-        fields.number("event_error", "1", "largest error of an event's time, in cycles; null if their number differs"),
         fields.text("outcome", "ok, or the failure, independent of the status that the method reports"),
     ),
     "precision_times": (
@@ -141,13 +140,8 @@ def sample_times(settings: dict) -> np.ndarray:
     return SAMPLE_INTERVAL * np.arange(1, int(settings["duration"] / SAMPLE_INTERVAL * (1.0 + 1e-9)) + 1)
 
 
-def contact_changes(events: np.ndarray) -> np.ndarray:
-    """Times (s) of the impacts and separations among the events of a run."""
-    return events["time"][np.isin(events["kind"], ["impact", "separation"])]
-
-
-def sample_trajectory(method: Method, run: Run | None, settings: dict) -> tuple[np.ndarray, np.ndarray]:
-    """x and z (m) at the fixed times, shape (n, 2), and the times (s) of impacts and separations.
+def sample_trajectory(method: Method, run: Run | None, settings: dict) -> np.ndarray:
+    """x and z (m) at the fixed times, shape (n, 2).
 
     run : the run of this method; None for SciPy, which then runs again
     """
@@ -158,21 +152,15 @@ def sample_trajectory(method: Method, run: Run | None, settings: dict) -> tuple[
         name, treatment, tolerance, _ = method
         parameters = grid.row_of(settings["model"])
         summary = scipy_integrators.run(parameters, settings["duration"], name, treatment, tolerance, limit, times)
-        return summary.samples[:, [0, 2]], summary.events
+        return summary.samples[:, [0, 2]]
     samples = run.sample(times)
-    return np.stack([samples["x"], samples["z"]], axis=1), contact_changes(run.events)
+    return np.stack([samples["x"], samples["z"]], axis=1)
 
 
-def trajectory_errors(
-    method: Method, run: Run | None, truth: tuple[np.ndarray, np.ndarray], settings: dict
-) -> tuple[float, float]:
-    """RMS error of x and z in units of the plate's motion, and largest error of an event time in cycles."""
-    positions, events = sample_trajectory(method, run, settings)
+def trajectory_error(method: Method, run: Run | None, truth: np.ndarray, settings: dict) -> float:
+    """RMS error of x and z in units of the plate's motion."""
     scale = modes.scales(grid.row_of(settings["model"]))[[0, 2]]
-    error = math.sqrt(np.mean(((positions - truth[0]) / scale) ** 2))
-    if len(events) != len(truth[1]):
-        return error, math.nan
-    return error, float(np.abs(events - truth[1]).max(initial=0.0) * settings["model"]["frequency"])
+    return math.sqrt(np.mean(((sample_trajectory(method, run, settings) - truth) / scale) ** 2))
 
 
 def find_states(settings: dict, ends: np.ndarray) -> np.ndarray:
@@ -217,10 +205,9 @@ def make(settings: dict, repeats: int, *, progress: str | None = None) -> dict[s
     outcomes = judge_runs(results, velocity_error, truth, settings)
     reference = sample_trajectory(reference_method, truth.run, settings)
     errors = [
-        trajectory_errors(method, result.run, reference, settings) if outcome == "ok" else (math.nan, math.nan)
+        trajectory_error(method, result.run, reference, settings) if outcome == "ok" else math.nan
         for method, result, outcome in zip(listed, results, outcomes, strict=True)
     ]
-    trajectory_error, event_error = zip(*errors, strict=True)
     return {
         "precision": {
             **run,
@@ -229,8 +216,7 @@ def make(settings: dict, repeats: int, *, progress: str | None = None) -> dict[s
             "mean_velocity": columns.mean_velocity,
             "velocity_error": velocity_error,
             "state_error": [np.abs((result.end - truth.end) / scale).max() for result in results],
-            "trajectory_error": trajectory_error,
-            "event_error": event_error,
+            "trajectory_error": errors,
             "outcome": outcomes,
         },
         "precision_times": {
