@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from conveyor.parameters import normal_gravity
+from conveyor_pipeline.common.scales import length_scale
 from conveyor_pipeline.config.files import merge
 from conveyor_pipeline.config.schema import child, schema_at, unit_of
 from conveyor_pipeline.config.stages import declared
@@ -28,7 +29,7 @@ def scales_of(model: dict) -> dict[str, float]:
     amplitude = gravity / math.sin(model["angle"])
     return {
         "m/s²": amplitude,
-        "m": gravity / omega**2,
+        "m": length_scale(model),
         "m/s": gravity / omega,
         "s": 1.0 / model["frequency"],
         "Hz": model["frequency"],

@@ -1,12 +1,11 @@
 """What remains of the paper's two states and of chaos if the part is a flat block: numbers for the pages."""
 
-import math
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from conveyor.parameters import normal_gravity
+from conveyor_pipeline.common.scales import length_scale
 from conveyor_pipeline.machine.operating.body_limits import TILT
 from conveyor_pipeline.machine.operating.populations import ENDS
 
@@ -37,7 +36,7 @@ def compare_flat(bodies: pd.DataFrame) -> dict[str, Any]:
     ride. None stands for what the table does not contain.
     """
     model, rows = bodies.attrs["model"], beside_points(bodies)
-    length = normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2
+    length = length_scale(model)
     two = {"points": two_velocities(rows, "point"), "flat": two_velocities(rows, "flat")}
     chaos = rows[rows.acceleration.round(1) > max([*two["points"], *two["flat"]], default=0.0)]
     faster = chaos.velocity_50_flat / chaos.velocity_50_point - 1.0

@@ -4,7 +4,7 @@ import math
 
 import pandas as pd
 
-from conveyor.parameters import normal_gravity
+from conveyor_pipeline.common.scales import length_scale
 from conveyor_pipeline.common.templates import format_number
 from conveyor_pipeline.machine.operating.body_limits import LONGEST, MOTIONS, PARTS, RIGHT, STATEMENT, TILT, TRACK
 from conveyor_pipeline.machine.operating.populations import ENDS
@@ -28,7 +28,7 @@ def numbers(*, bodies: pd.DataFrame, shapes: pd.DataFrame) -> dict:
         "parts": max(4, round(settings["effort"] * PARTS)),
         "tilt": TILT,
         "ends": ENDS,
-        "track": TRACK * normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2,
+        "track": TRACK * length_scale(model),
         "longest": LONGEST / model["frequency"],
         "right": f"{100.0 * RIGHT:g}",
         "amplitudes": [format_number(amplitude) for amplitude in amplitudes],

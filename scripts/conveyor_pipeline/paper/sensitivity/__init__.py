@@ -1,1 +1,1 @@
-"""Stage sensitivity: derivatives of bifurcations and critical heights, and bifurcation curves."""
+"""Stage sensitivity: changes of bifurcations and critical heights, and bifurcation curves."""
