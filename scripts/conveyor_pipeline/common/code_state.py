@@ -23,8 +23,8 @@ def sources(folder: str) -> Iterator[os.DirEntry]:
                 yield entry
 
 
-def code_state(folder: Path = SCRIPTS) -> str:
-    """A text that differs if a file below `folder` was changed, added or removed; takes some milliseconds."""
-    stats = ((entry.path, entry.stat()) for entry in sources(str(folder)))
+def code_state() -> str:
+    """A text that differs if a file below SCRIPTS was changed, added or removed; takes some milliseconds."""
+    stats = ((entry.path, entry.stat()) for entry in sources(str(SCRIPTS)))
     known = sorted((path, stat.st_mtime_ns, stat.st_size) for path, stat in stats)
     return hashlib.sha256(repr(known).encode()).hexdigest()

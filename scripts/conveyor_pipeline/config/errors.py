@@ -101,12 +101,12 @@ def explain(error: dict, config: Any) -> str:
     return f"{shown} {fault}{f' ({unit})' if names_unit else ''}{remedy}"
 
 
-def type_problems(config: Any, ignored: str = "") -> list[str]:
-    """Errors of the types of a config, one line each, without errors of the kind `ignored`."""
+def type_problems(config: Any) -> list[str]:
+    """Errors of the types of a config, one line each."""
     try:
         MODEL.validate_python(config)
     except ValidationError as invalid:
-        errors = [error for error in invalid.errors(include_url=False) if error["type"] != ignored]
+        errors = invalid.errors(include_url=False)
         more = [f"{format_key(error['loc'])}: {error['msg']}" for error in errors[MOST_EXPLAINED:]]
         return [explain(error, config) for error in errors[:MOST_EXPLAINED]] + more
     return []

@@ -75,8 +75,6 @@ def test_times_belong_to_the_same_runs(compared):
     run = list(precision.Method._fields)
     pd.testing.assert_frame_equal(times[run], compared[run])
     solver = times.method == "event"
-    # A fast run is repeated until its turn ends.
-    assert times.repeats[solver].min() > 2
     assert 0.0 < times.seconds[solver].max() < times.seconds[~solver].min()
 
 

@@ -23,7 +23,7 @@ def closest_return(run: pd.DataFrame) -> tuple[float, int]:
     return min(distances), int(np.argmin(distances)) + 1
 
 
-def no_period(*, euler: pd.DataFrame, converged: pd.DataFrame, horseshoes: pd.DataFrame | None = None) -> Finding:
+def no_period(*, euler: pd.DataFrame, converged: pd.DataFrame, horseshoes: pd.DataFrame) -> Finding:
     """Share of the initial heights whose motion has no period of up to 64 cycles at the end of a long run."""
 
     def find_returns(table: pd.DataFrame) -> list[tuple[float, int]]:
@@ -108,7 +108,7 @@ def phase_estimate(
     states: pd.DataFrame,
     estimates: pd.DataFrame,
     moved: pd.DataFrame,
-    certificates: pd.DataFrame | None = None,
+    certificates: pd.DataFrame,
 ) -> Finding:
     """Amplitude (m/s²) from which the estimate of Fig. 22 is positive."""
     begin, end = by_method(positive_onset, euler, converged).values()

@@ -42,18 +42,14 @@ def describe_coexistence(certificates: pd.DataFrame | None) -> str:
     return describe_amplitudes("Two stable motions are", counts.index[counts >= 2])
 
 
-def describe_periodic(certificates: pd.DataFrame | None, begin: float) -> str:
+def describe_periodic(certificates: pd.DataFrame, begin: float) -> str:
     """The amplitudes from `begin` (m/s²) on at which a stable periodic motion is proved."""
-    if certificates is None:
-        return ""
     amplitudes = stable_motions(certificates).index
     return describe_amplitudes("A stable periodic motion is", amplitudes[amplitudes >= begin])
 
 
-def describe_chaos(horseshoes: pd.DataFrame | None) -> str:
+def describe_chaos(horseshoes: pd.DataFrame) -> str:
     """The amplitudes at which the existence of chaotic motions is proved."""
-    if horseshoes is None:
-        return ""
     rows = horseshoes[horseshoes.proved]
     if rows.empty:
         return ""

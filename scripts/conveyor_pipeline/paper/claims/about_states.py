@@ -13,6 +13,7 @@ from conveyor_pipeline.paper.claims.finding import NONE, Finding, by_method, for
 
 MM = 1e3
 LINE = 0.02  # smallest visible line of a spectrum, over its largest amplitude
+SCATTER = 0.05  # largest relative standard deviation of velocities that do not scatter
 
 
 def second_from_rest(table: pd.DataFrame) -> float:
@@ -105,11 +106,11 @@ def in_steps_of(table: pd.DataFrame, coarse: pd.DataFrame) -> pd.DataFrame:
     return table[np.isclose(steps, steps.round(), rtol=0.0, atol=1e-6)]
 
 
-def scatter_onset(table: pd.DataFrame, spread: float = 0.05) -> float:
+def scatter_onset(table: pd.DataFrame) -> float:
     """Lowest amplitude (m/s²) from which velocities outside the first state scatter between initial conditions."""
     jumping = table[table.state != "first"].groupby("acceleration").mean_velocity
     relative = (jumping.std() / jumping.mean())[jumping.count() > 1]
-    quiet = relative.index[relative <= spread]
+    quiet = relative.index[relative <= SCATTER]
     return relative.index[relative.index > (quiet.max() if len(quiet) else -np.inf)].min()
 
 
@@ -119,9 +120,7 @@ def chaos_onset(table: pd.DataFrame) -> float:
     return onset(share.index, share > 0.5)
 
 
-def onset_of_chaos(
-    *, euler: pd.DataFrame, converged: pd.DataFrame, certificates: pd.DataFrame | None = None
-) -> Finding:
+def onset_of_chaos(*, euler: pd.DataFrame, converged: pd.DataFrame, certificates: pd.DataFrame) -> Finding:
     """Amplitudes (m/s²) from which velocities scatter, which the paper reads as chaos, and motions are chaotic."""
     scatter = by_method(scatter_onset, euler, converged)
     chaos = by_method(chaos_onset, euler, converged)

@@ -5,29 +5,12 @@ best error over B, a valley along which very different triples fit almost equall
 bottom. `fit_hyperbola_by_pymoo` searches in all three parameters as the paper does, by an evolution strategy.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from scipy.optimize import least_squares
 
 from conveyor_pipeline.paper.fit.hyperbola import Hyperbola, critical_height, mean_squared_error
 
 STARTS = 100  # values of B at which the valley is searched for its minima
-
-
-class Fit(NamedTuple):
-    """Result of a fit.
-
-    Attributes
-    ----------
-    parameters : the best triple
-    error : its mean squared error, m²
-    evaluations : number of triples (values of B for `fit_hyperbola`) whose error was computed
-    """
-
-    parameters: Hyperbola
-    error: float
-    evaluations: int
 
 
 def hyperbola_profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -50,7 +33,7 @@ def hyperbola_profile(acceleration: np.ndarray, height: np.ndarray, b: np.ndarra
     return parameters, mean_squared_error(acceleration, height, parameters)
 
 
-def fit_hyperbola(acceleration: np.ndarray, height: np.ndarray, bounds: tuple[float, float]) -> Fit:
+def fit_hyperbola(acceleration: np.ndarray, height: np.ndarray, bounds: tuple[float, float]) -> Hyperbola:
     """Least-squares fit with B within `bounds` (m/s²), A and C free: the lowest minimum that a scan of B shows.
 
     Parameters
@@ -69,13 +52,13 @@ def fit_hyperbola(acceleration: np.ndarray, height: np.ndarray, bounds: tuple[fl
 
     bracket = starts[max(best - 1, 0)], starts[min(best + 1, STARTS - 1)]
     solution = least_squares(residuals, starts[best], bounds=bracket, jac="3-point", xtol=1e-15, ftol=1e-15, gtol=1e-15)
-    parameters, error = hyperbola_profile(acceleration, height, solution.x)
-    return Fit(Hyperbola(*map(float, parameters[0])), float(error[0]), STARTS + 3 * solution.nfev)
+    parameters, _ = hyperbola_profile(acceleration, height, solution.x)
+    return Hyperbola(*map(float, parameters[0]))
 
 
 def fit_hyperbola_by_pymoo(
     acceleration: np.ndarray, height: np.ndarray, bounds: dict[str, tuple[float, float]], seed: int, evaluations: int
-) -> Fit:
+) -> Hyperbola:
     """Fit by CMA-ES (Hansen 2016, in pymoo), which learns the direction of the narrow, curved valley.
 
     Parameters
@@ -103,6 +86,4 @@ def fit_hyperbola_by_pymoo(
 
     # The strategy draws from NumPy's global generator and takes seed 0 as a request to seed from the clock.
     result = minimize(Error(), CMAES(x0=np.full(3, 0.5), sigma=0.3), ("n_eval", evaluations), seed=seed + 1)
-    parameters = low + result.X * (high - low)
-    error = float(mean_squared_error(acceleration, height, parameters))
-    return Fit(Hyperbola(*map(float, parameters)), error, int(result.algorithm.evaluator.n_eval))
+    return Hyperbola(*map(float, low + result.X * (high - low)))

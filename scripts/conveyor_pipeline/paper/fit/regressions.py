@@ -14,7 +14,6 @@ TABLES = {
         fields.number("B", "m/s²", "parameter of Eq. 13"),
         fields.number("C", "m", "parameter of Eq. 13"),
         fields.number("error", "m²", "mean squared error of Eq. 13"),
-        fields.count("evaluations", "number of computed errors of triples or values of B; 0 for the paper's triple"),
     ),
 }
 
@@ -38,13 +37,12 @@ def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
         valley["start"] = -BELOW * data[0].min()
         bounds["B"] = valley["start"], bounds["B"][1]
     valley = np.linspace(valley["start"], valley["stop"], int(valley["num"]))
-    pymoo = fit_hyperbola_by_pymoo(*data, bounds, SEED, EVALUATIONS)
-    least_squares = fit_hyperbola(*data, bounds["B"])
-    valley, errors = hyperbola_profile(*data, valley)
-    rows = [("pymoo", *pymoo.parameters, pymoo.error, pymoo.evaluations)]
-    rows.append(("least_squares", *least_squares.parameters, least_squares.error, least_squares.evaluations))
+    fits = {
+        "pymoo": fit_hyperbola_by_pymoo(*data, bounds, SEED, EVALUATIONS),
+        "least_squares": fit_hyperbola(*data, bounds["B"]),
+    }
     if "paper" in settings:
-        paper = Hyperbola(**settings["paper"])
-        rows.append(("paper", *paper, mean_squared_error(*data, paper), 0))
-    rows += [("valley", *triple, error, 1) for triple, error in zip(valley, errors, strict=True)]
+        fits["paper"] = Hyperbola(**settings["paper"])
+    rows = [(name, *triple, mean_squared_error(*data, triple)) for name, triple in fits.items()]
+    rows += [("valley", *triple, error) for triple, error in zip(*hyperbola_profile(*data, valley), strict=True)]
     return pd.DataFrame(rows, columns=names).to_dict("list")

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from conveyor import UNITS, amplitude_of
+from conveyor import amplitude_of
 from conveyor.analysis.bifurcations.bifurcation_curves import (
     PATHS,
     BifurcationCurve,
@@ -22,10 +22,9 @@ CURVE = (
     *COLUMNS,
     fields.number("begin", "m/s²", "amplitude of the bifurcation for the conveyor of the config"),
     fields.text("parameter", "varied parameter besides the amplitude"),
-    fields.text("parameter_unit", "unit of the varied parameter"),
 )
 PLACE = (
-    fields.number("value", "see parameter_unit", "value of the varied parameter"),
+    fields.number("value", "see parameter", "value of the varied parameter, in its SI unit"),
     fields.number("acceleration", "m/s²", "amplitude of the excitation"),
     fields.number("amplitude_group", "1", "Γ = a_z/g"),
     fields.number("damping_group", "1", "D = d_c/(m ω)"),
@@ -36,8 +35,6 @@ TABLES = {
         *CURVE,
         fields.count("point", "number of the point along its curve"),
         *PLACE,
-        fields.count("impacts", "impacts of the orbit in a period"),
-        fields.number("normal_form", "1", "zero at a cusp or a generalised doubling; null for a grazing"),
         fields.text("status", "ok, or at the ends of a curve the reason why it ends"),
     ),
     "meetings": (
@@ -112,15 +109,12 @@ def curve_rows(
         "rides": bifurcation.rides,
         "begin": bifurcation.acceleration,
         "parameter": parameter,
-        "parameter_unit": UNITS[parameter],
     }
     last = len(curve.points) - 1
     points = []
-    for n, (point, part, form, impacts) in enumerate(
-        zip(curve.points, curve.log_ratios, curve.normal_forms, curve.impacts, strict=True)
-    ):
+    for n, (point, part) in enumerate(zip(curve.points, curve.log_ratios, strict=True)):
         end = curve.ends[0] if n == 0 else curve.ends[1] if n == last else None
-        columns = {"point": n, "impacts": impacts, "normal_form": form, "status": ENDS.get(end, "ok")}
+        columns = {"point": n, "status": ENDS.get(end, "ok")}
         points.append({**name, **place_columns(parameters, point, parameter, part), **columns})
     meetings = [
         {

@@ -24,7 +24,6 @@ class Shown(NamedTuple):
     drawn: tuple[str, ...]  # columns that a figure draws
     what: str  # the drawn columns in words
     vertical: bool = False  # whether the vertical motion is sufficient
-    settled: bool = False  # whether the table describes attractors, not transients
     motion: tuple[str, ...] = ()  # columns besides the axes that identify a motion, if all its rows belong together
     each: bool = False  # whether every motion has a panel and a range of values of its own
 
@@ -56,17 +55,15 @@ SHOWN = {
     "signals": Shown(
         signals.make, ("time",), ("x", "vx", "z", "vz", "contact_force", "friction_force"), "samples", each=True
     ),
-    "spectra": Shown(spectra.make, ("signal", "frequency"), ("amplitude",), "spectrum", settled=True, each=True),
+    "spectra": Shown(spectra.make, ("signal", "frequency"), ("amplitude",), "spectrum", each=True),
     "estimates": Shown(estimates.make, (), ("lambda",), "exponent"),
-    "critical": Shown(make_critical_heights, (), ("z0",), "critical height", vertical=True, settled=True),
+    "critical": Shown(make_critical_heights, (), ("z0",), "critical height", vertical=True),
     "impacts": Shown(
         impacts.make, (), ("impact_velocity", "impact_phase", "state"), "first impact, state", vertical=True
     ),
-    "dimensions": Shown(portraits.make, (), ("dimension",), "dimension", vertical=True, settled=True),
-    "attractors": Shown(
-        make_strobes, ("branch", "cycle"), ("v",), "strobes", vertical=True, settled=True, motion=("branch",)
-    ),
-    "lyapunov": Shown(make_exponents, ("branch",), ("lambda_1",), "exponent", vertical=True, settled=True),
+    "dimensions": Shown(portraits.make, (), ("dimension",), "dimension", vertical=True),
+    "attractors": Shown(make_strobes, ("branch", "cycle"), ("v",), "strobes", vertical=True, motion=("branch",)),
+    "lyapunov": Shown(make_exponents, ("branch",), ("lambda_1",), "exponent", vertical=True),
 }
 
 

@@ -41,7 +41,6 @@ TABLES = {
     "precision_times": (
         *RUN,
         fields.number("seconds", "s", "median processor time; every method runs in one thread"),
-        fields.count("repeats", "timed runs"),
     ),
 }
 
@@ -222,6 +221,5 @@ def make(settings: dict, repeats: int, *, progress: str | None = None) -> dict[s
         "precision_times": {
             **run,
             "seconds": [np.median(spent) for spent in times],
-            "repeats": [len(spent) for spent in times],
         },
     }

@@ -6,7 +6,7 @@ values change visibly with tiny shifts of the initial height or with an even tig
 transients. They do not count, because the model itself makes no statement about them.
 """
 
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -25,12 +25,9 @@ TABLES = {
         fields.text("table", "table behind the figure, SECTION/NAME; none for a drawing"),
         fields.text("needs", "feeding or vertical motion, or nothing"),
         fields.text("shows", "drawn quantities of the table"),
-        fields.flag("settled", "whether the table describes attractors, not transients"),
         fields.text("variant", "full model, feeding or vertical needs, half the time, rigid part, or drawing"),
         fields.number("tolerance", "1", "relative error of a step; null where there is none"),
-        fields.number("duration", "s", "duration of the runs; null if they last until they settle"),
         fields.count("points", "computed points of the table"),
-        fields.number("steps", "1/s", "Taylor steps per second of the motion; null for a rigid part"),
         fields.number("sticks", "1", "share of the points whose part sticks at some time"),
         fields.number("known", "1", "share of the drawn values without a visible change by a tiny shift of the height"),
         fields.number("changed", "1", "share of values that differ visibly from the full model, for the worst column"),
@@ -59,12 +56,9 @@ NOTHING = {
     "table": "none",
     "needs": "nothing",
     "shows": "a drawing, or numbers from other rules",
-    "settled": False,
     "variant": DRAWING,
     "tolerance": np.nan,
-    "duration": np.nan,
     "points": 0,
-    "steps": 0.0,
     "sticks": np.nan,
     "known": np.nan,
     "changed": 0.0,
@@ -100,10 +94,10 @@ def variants_of(section: str, settings: dict) -> list[tuple[str, dict]]:
     return variants
 
 
-def measure_work(parameters: np.ndarray, tolerance: float) -> tuple[float, float]:
-    """Mean number of Taylor steps per second of the motion, and the share of points whose part sticks."""
+def share_that_sticks(parameters: np.ndarray, tolerance: float) -> float:
+    """The share of points whose part sticks at some time."""
     runs = [simulate(*conveyor_and_start(row), tolerance=tolerance) for row in parameters]
-    return float(np.mean([run.work for run in runs])), float(np.mean(["stick" in run.events["kind"] for run in runs]))
+    return float(np.mean(["stick" in run.events["kind"] for run in runs]))
 
 
 def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
@@ -112,7 +106,7 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     shown = SHOWN[section]
     needs = "vertical" if shown.vertical else settings.get("needs", "feeding")
     if section == "sweeps" and needs == "vertical":
-        shown = shown._replace(drawn=("state",), what="state", settled=True)
+        shown = shown._replace(drawn=("state",), what="state")
     thinned = observables.thin_axes(settings["axes"], budget["points"][section])
     _, parameters = grid.product(thinned, settings["model"])
     settings = settings | {"axes": thinned, "settling": CYCLES}
@@ -128,23 +122,19 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     observed, times = run_in_turns(runs, repeats=REPEATS, seconds=SECONDS)
     truth = observed[0]
     robust = observables.robust_values(shown, truth, alike, settings["axes"])
-    work_at = cache(partial(measure_work, parameters[:: max(1, len(parameters) // 50)]))
+    sticks = share_that_sticks(parameters[:: max(1, len(parameters) // 50)], settings["tolerance"])
 
     def row(variant: str, of: dict, seconds: float, table: pd.DataFrame) -> dict:
         visible = observables.visible_differences(shown, truth, table, settings["axes"])
         shares = [visible[name][robust[name]].mean() for name in shown.drawn if robust[name].any()]
-        steps, sticks = work_at(of["tolerance"])
         return {
             "table": reference,
             "needs": needs,
             "shows": shown.what,
-            "settled": shown.settled,
             "variant": variant,
             "tolerance": np.nan if section == "impacts" else of["tolerance"],
-            "duration": np.nan if of["duration"] is None else of["duration"],
             "points": len(parameters),
             "seconds": seconds / len(parameters),
-            "steps": np.nan if variant == RIGID else steps,
             "sticks": sticks,
             "known": float(robust.to_numpy().mean()) if robust.size else np.nan,
             "changed": float(max(shares, default=0.0)),
