@@ -26,11 +26,6 @@ def test_no_number_of_a_caption_is_typed(name):
     assert typed(template_of(name)) == []
 
 
-@pytest.mark.parametrize("text", ["from 63 m/s² on", "for eleven heights", "to 1e-9 m", "half of 1 s"])
-def test_a_typed_number_is_found(text):
-    assert typed(f"The exponent of Fig. 22 in 1/s, {{{{ plateau }}}} {text}.")
-
-
 def test_a_missing_number_is_an_error():
     with pytest.raises(UndefinedError, match="speed") as error:
         captions.caption("at {{ speed }} m/s", "fig01", {}, {})

@@ -1,7 +1,6 @@
 """Saving of figures."""
 
 import pandas as pd
-import pytest
 
 from conveyor_pipeline.figures import style
 
@@ -19,18 +18,6 @@ def test_files_of_a_figure_have_one_layout(tmp_path):
 
     page = position("a.pdf")
     assert position("b.png") == position("c.pdf", "c.png") == page
-
-
-def test_positions_are_rounded(tmp_path):
-    """Their last digits differ from run to run, so that pictures with equal layouts would have different bytes."""
-    with style.applied():
-        figure = style.figure(50.0, 60.0)
-        parts = figure.subfigures(2, 1, height_ratios=(2.0, 1.0))
-        panels = [*parts[0].subplots(1, 3), parts[1].subplots()]
-        style.save(figure, [str(tmp_path / "a.png")])
-    positions = [*(axes.get_position().bounds for axes in panels), *(part.bbox_relative.bounds for part in parts)]
-    for position in positions:
-        assert position == pytest.approx([round(number, 9) for number in position], abs=1e-15)
 
 
 def test_a_legend_of_four_states_fits_a_column():

@@ -62,18 +62,6 @@ def test_a_guide_can_be_read_where_it_lies(page):
         assert not anchor or anchor in anchors(target), link
 
 
-def test_names_that_the_guide_says_to_edit_exist():
-    for file, name in (
-        ("scripts/conveyor_pipeline/machine/operating/settings.py", "TABLE_SETTINGS"),
-        ("scripts/conveyor_pipeline/figures/style.py", "METHODS"),
-        ("scripts/conveyor/parameters.py", "FIXED_STEP_METHODS"),
-        ("scripts/conveyor/methods/scheme.py", "EVALUATIONS"),
-        ("scripts/conveyor/methods/fixed_step.py", "GROWTH"),
-    ):
-        assert re.search(rf"^{name}\b.*=", (ROOT / file).read_text(), re.MULTILINE), (file, name)
-        assert name in (ROOT / "CONTRIBUTING.md").read_text()
-
-
 def test_pre_commit_checks_what_ci_does():
     hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text())["repos"][0]["hooks"]
     commands = re.search(r'step "format and lint"\n(.*?)\n\n', CI, re.DOTALL)[1].replace('"$bin/', "").replace('"', "")
@@ -120,15 +108,6 @@ def test_all_files_name_one_version():
     assert yaml.safe_load((ROOT / "CITATION.cff").read_text())["version"] == __version__
     assert f"Version {__version__} " in yaml.safe_load((ROOT / "codecheck.yml").read_text())["source"]
     assert re.findall(r"^## (\S+)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)[0] == __version__
-
-
-def test_the_catalogue_finds_its_files():
-    usage = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text())["usage"]
-    assert set(usage) == {"mandatory-flags", "software-stack-deployment", "report"}
-    assert (ROOT / "workflow/Snakefile").is_file()
-    readme = (ROOT / "README.md").read_text().lower()
-    assert "snakemake" in readme
-    assert "workflow" in readme
 
 
 def test_files_that_the_config_guide_names_exist():

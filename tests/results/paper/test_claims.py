@@ -79,17 +79,3 @@ def test_verdicts_and_numbers_agree_with_the_page(result):
 def test_claims_that_do_not_depend_on_axes_agree_with_the_page(result):
     table = result("claims")
     assert differences(table, ON_ANY_AXES) == []
-
-
-def test_a_difference_is_reported_with_both_values(result):
-    """The comparison can fail."""
-    table = result("claims")
-    row = table.index[table.id == "C07"][0]
-    changed = table.copy()
-    changed.at[row, "verdict"] = NOT_REPRODUCED
-    changed["converged"] = [
-        np.array([0.08]) if name == "C07" else found for name, found in zip(table.id, table.converged, strict=True)
-    ]
-    first, second = differences(changed, ["C07"])
-    assert first == "C07 is not reproduced, on the page reproduced"
-    assert second.startswith("C07 has converged [0.08], on the page [0.07")

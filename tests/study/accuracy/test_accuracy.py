@@ -13,7 +13,7 @@ from conveyor_pipeline.study.accuracy.scenes import LONGEST, SCENES
 CONFIG = read_config()
 
 
-def compare(scene: str, duration: float, threads: int) -> pd.DataFrame:
+def compare(scene: str, duration: float, repeats: int) -> pd.DataFrame:
     """Work and precision of the solver and of an integrator of SciPy, with the settings and the times as attributes."""
     model, default = CONFIG["model"] | SCENES[scene], CONFIG["solver"]["tolerance"]
     settings = {"duration": min(duration, LONGEST.get(scene, duration)), "default": default, "model": model}
@@ -22,7 +22,7 @@ def compare(scene: str, duration: float, threads: int) -> pd.DataFrame:
         patch.setattr(precision, "STEPS", (5e-7,))
         patch.setattr(precision, "SCIPY", {"modes": {"DOP853": (1e-4, 1e-13)}})
         patch.setattr(precision, "SECONDS", 0.02)
-        tables = precision.make(settings, threads)
+        tables = precision.make(settings, repeats)
     table = pd.DataFrame(tables["precision"])
     table.attrs = settings | {"times": pd.DataFrame(tables["precision_times"])}
     return table
@@ -30,11 +30,11 @@ def compare(scene: str, duration: float, threads: int) -> pd.DataFrame:
 
 @pytest.fixture(scope="module", params=SCENES)
 def compared(request):
-    return compare(request.param, duration=1.0, threads=2)
+    return compare(request.param, duration=1.0, repeats=2)
 
 
-def test_the_table_does_not_depend_on_threads():
-    one, two = (compare("jumping", duration=0.1, threads=threads) for threads in (1, 2))
+def test_the_table_does_not_depend_on_the_repetitions():
+    one, two = (compare("jumping", duration=0.1, repeats=repeats) for repeats in (1, 2))
     pd.testing.assert_frame_equal(one, two, check_exact=True)
 
 
