@@ -68,6 +68,7 @@ def log_file(name):
 
 
 def benchmark_file(name):
+    """The costs of a job, which the provenance of a build sums: not of pages and other files that are made on request."""
     return result(f"benchmarks/{name}.tsv")
 
 

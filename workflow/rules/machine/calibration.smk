@@ -47,8 +47,6 @@ rule calibration_page:
         page=result("calibration.md"),
     log:
         log_file("calibration/page"),
-    benchmark:
-        benchmark_file("calibration/page")
     params:
         **stage("conveyor_pipeline.machine.calibration.page"),
         prefix=config["prefix"],
@@ -64,8 +62,6 @@ rule calibrated:
         overlay=result("calibrated.yaml"),
     log:
         log_file("calibration/calibrated"),
-    benchmark:
-        benchmark_file("calibration/calibrated")
     params:
         **stage("conveyor_pipeline.machine.calibration.overlay"),
     script:
@@ -81,8 +77,6 @@ if not MEASURED["calibration"]:
             measurements="config/examples/measured.csv",
         log:
             log_file("calibration/measured_example"),
-        benchmark:
-            benchmark_file("calibration/measured_example")
         params:
             **stage("conveyor_pipeline.machine.calibration.synthetic"),
         script:

@@ -29,8 +29,6 @@ rule contact_page:
         page=result("contact.md"),
     log:
         log_file("contact/page"),
-    benchmark:
-        benchmark_file("contact/page")
     params:
         **stage("conveyor_pipeline.machine.contact.page"),
     script:

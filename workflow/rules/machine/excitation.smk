@@ -63,8 +63,6 @@ rule excitation_page:
         page=result("excitation.md"),
     log:
         log_file("excitation/page"),
-    benchmark:
-        benchmark_file("excitation/page")
     params:
         **stage("conveyor_pipeline.machine.excitation.page"),
         prefix=config["prefix"],
@@ -80,8 +78,6 @@ rule measured_drive:
         overlay=result("measured_drive.yaml"),
     log:
         log_file("excitation/measured_drive"),
-    benchmark:
-        benchmark_file("excitation/measured_drive")
     params:
         **stage("conveyor_pipeline.machine.excitation.overlay"),
     script:
@@ -97,8 +93,6 @@ if not MEASURED["excitation"]:
             recording="config/examples/accelerometer.csv",
         log:
             log_file("excitation/accelerometer_example"),
-        benchmark:
-            benchmark_file("excitation/accelerometer_example")
         params:
             **stage("conveyor_pipeline.machine.excitation.synthetic"),
         script:

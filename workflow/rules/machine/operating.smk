@@ -199,8 +199,6 @@ rule operating_page:
         result("{page}.md"),
     log:
         log_file("operating/{page}_page"),
-    benchmark:
-        benchmark_file("operating/{page}_page")
     wildcard_constraints:
         page=one_of(ON_REQUEST),
     params:

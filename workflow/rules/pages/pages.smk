@@ -70,8 +70,6 @@ rule page:
         f"{DOCS}{{page}}.md",
     log:
         log_file("docs/{page}"),
-    benchmark:
-        benchmark_file("docs/{page}")
     wildcard_constraints:
         page=one_of(PAGES),
     params:
@@ -93,8 +91,6 @@ rule companion:
         f"{DOCS}companion.html",
     log:
         log_file("docs/companion"),
-    benchmark:
-        benchmark_file("docs/companion")
     params:
         **stage("conveyor_pipeline.pages.companion.build"),
         settings={name: config[name] for name in ("model", "solver", "companion")},
@@ -112,8 +108,6 @@ rule facts:
         result("facts.json"),
     log:
         log_file("docs/facts"),
-    benchmark:
-        benchmark_file("docs/facts")
     params:
         **stage("conveyor_pipeline.pages.facts"),
         values={
@@ -140,8 +134,6 @@ rule kept_pages:
         [f"{PROJECT}{name}" for name in KEPT_PAGES],
     log:
         log_file("docs/kept_pages"),
-    benchmark:
-        benchmark_file("docs/kept_pages")
     params:
         **stage("conveyor_pipeline.pages.pages"),
     script:
@@ -160,8 +152,6 @@ rule article:
         pdf=result("article.pdf"),
     log:
         log_file("docs/article"),
-    benchmark:
-        benchmark_file("docs/article")
     params:
         **stage("conveyor_pipeline.pages.article"),
         medium="print",
@@ -181,8 +171,6 @@ rule site_pages:
         SITE_PAGES,
     log:
         log_file("docs/site_pages"),
-    benchmark:
-        benchmark_file("docs/site_pages")
     params:
         **stage("conveyor_pipeline.pages.pages"),
         medium="site",
@@ -199,8 +187,6 @@ rule diagrams:
         **DIAGRAMS,
     log:
         log_file("docs/diagrams"),
-    benchmark:
-        benchmark_file("docs/diagrams")
     params:
         **stage("conveyor_pipeline.pages.diagrams"),
     script:
@@ -229,8 +215,6 @@ rule site:
         directory(result("site")),
     log:
         log_file("docs/site"),
-    benchmark:
-        benchmark_file("docs/site")
     resources:
         mem_mb=1500,
     params:
@@ -252,8 +236,6 @@ rule picture:
         f"docs/{EXAMPLE}{{figure}}.png",
     log:
         log_file("docs/{figure}"),
-    benchmark:
-        benchmark_file("docs/{figure}")
     wildcard_constraints:
         figure="operating|transit|basin_stability|drive|calibration" if EXAMPLE else one_of(PICTURES),
     params:

@@ -39,8 +39,6 @@ rule claim:
         report=result("claims/{name}.md"),
     log:
         log_file("checks/claims/{name}"),
-    benchmark:
-        benchmark_file("checks/claims/{name}")
     wildcard_constraints:
         name=one_of(CLAIMS),
     params:
@@ -63,8 +61,6 @@ rule uncertainty:
         uncertainty=result("uncertainty.json"),
     log:
         log_file("checks/uncertainty"),
-    benchmark:
-        benchmark_file("checks/uncertainty")
     params:
         **stage(
             "conveyor_pipeline.paper.claims.uncertainty",
