@@ -1,6 +1,6 @@
 """The attractors of one conveyor, and their basins."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +12,7 @@ from .analysis.attractors.identity import Attractor, Attractors
 from .ensemble import sweep
 from .packing import as_rows, as_table, check_row, parameter_table
 from .parameters import DEFAULT_TOLERANCE, LAST
+from .progress import progress_bar
 from .solver.model import FREQUENCY, PSI0, Conveyor
 from .solver.pieces import BEGIN_OF_CYCLE
 
@@ -53,13 +54,20 @@ def attractors(
     """
     row = check_row("conveyor", conveyor)
     samples = arguments.check_count("samples", samples, 1, arguments.MOST_CYCLES)
-    options = {"cycles": cycles, "tolerance": tolerance, "threads": threads, "progress": progress}
+    with progress_bar(total=1 + samples, label=progress) as shown:
+        options = {"cycles": cycles, "tolerance": tolerance, "threads": threads, "progress": shown}
+        return attractors_of_row(row, samples, options)
+
+
+def attractors_of_row(row: np.ndarray, samples: int, options: dict[str, Any]) -> Attractors:
+    """The Attractors of packed parameters, shape (16,), with the options of `classify`."""
+    tolerance = labels.check_tolerance(options["tolerance"])
     table = search.find_attractors(as_table(row[None]), **options)
     conveyor = table.orbits.conveyors[0] if len(table.orbits.conveyors) else labels.distinct_rows(row[None])[0][0]
     at_top = np.array(conveyor)
     at_top[PSI0] = BEGIN_OF_CYCLE
     starts = sampling.sampled_initial_conditions(row, samples)
-    starts = stroboscopic_map.pack_states(np.tile(at_top, (samples, 1)), starts, labels.check_tolerance(tolerance))
+    starts = stroboscopic_map.pack_states(np.tile(at_top, (samples, 1)), starts, tolerance)
     found = [
         identity.orbit_attractor(conveyor, labels.regular_state(flight * row[FREQUENCY]), int(period), state)
         for state, period, flight in zip(
@@ -165,8 +173,9 @@ def basin(
     parameters = as_table(np.broadcast_to(row, (*starts.shape[:2], len(row))).copy())
     for name, column in (("z0", heights[:, None]), ("vz0", speeds)):
         parameters[name] = column
-    options = {"cycles": cycles, "tolerance": tolerance, "threads": threads, "progress": progress}
-    found = attractors(as_table(row[None])[0], **options)
-    labelled = labels.classify(parameters, attractors=found, **options)
+    with progress_bar(total=1 + SAMPLES + starts[..., 0].size, label=progress) as shown:
+        options = {"cycles": cycles, "tolerance": tolerance, "threads": threads, "progress": shown}
+        found = attractors_of_row(row, SAMPLES, options)
+        labelled = labels.classify(parameters, attractors=found, **options)
     about = labelled.state, labelled.period, labelled.attractor
     return Basin(heights.astype(np.float64), speeds.astype(np.float64), *about, found)

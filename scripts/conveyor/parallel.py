@@ -7,6 +7,8 @@ from concurrent.futures import ThreadPoolExecutor, wait
 from functools import cache
 from typing import TypeVar
 
+from tqdm import tqdm
+
 from .progress import progress_bar
 
 Result = TypeVar("Result")
@@ -48,7 +50,7 @@ def for_each_chunk(
     *,
     threads: int = 1,
     chunk: int = 64,
-    progress: str | None = None,
+    progress: str | tqdm | None = None,
 ) -> None:
     """Call `work(begin, end)` for consecutive ranges that cover range(count), on `threads` threads.
 
@@ -56,7 +58,7 @@ def for_each_chunk(
     the end, so that no thread waits long for another one. `work` must write only to its range; then the result depends
     neither on `threads` nor on `chunk`. It may return the number of its points that have failed. An exception in `work`
     ends the loop and is raised here. `progress` is the label of a progress bar on stderr with rate, time left and
-    failed points; None shows no bar.
+    failed points, or an open bar; None shows no bar.
 
     Examples
     --------

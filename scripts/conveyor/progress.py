@@ -2,6 +2,7 @@
 
 import math
 import sys
+from contextlib import AbstractContextManager, nullcontext
 from typing import TextIO
 
 from tqdm import tqdm
@@ -38,14 +39,21 @@ class Lines(tqdm):
         super().close()
 
 
-def progress_bar(items=None, *, total: int | None = None, label: str | None, unit: str = "points") -> tqdm:
+def progress_bar(
+    items=None, *, total: int | None = None, label: str | tqdm | None, unit: str = "points"
+) -> tqdm | AbstractContextManager[tqdm]:
     """Progress over `items`, or over `total` units that `update` counts; nothing is shown without a label.
+
+    An open bar in place of a label counts these units, too, and stays open. Work that consists of several parts thus
+    shows one bar.
 
     Examples
     --------
     >>> [2 * number for number in progress_bar([1, 2, 3], label=None)]
     [2, 4, 6]
     """
+    if isinstance(label, tqdm):
+        return nullcontext(label)
     if not isinstance(label, str | None):
         raise TypeError(f"progress = {label!r} must be the label of the bar, a str, or None")
     options = {"desc": label, "unit": f" {unit}", "disable": label is None, "file": sys.stderr}

@@ -468,6 +468,27 @@ def test_signatures_have_one_style():
         assert ("threads" in given) <= ("progress" in given), name
 
 
+def test_long_functions_show_one_bar(orbit, capsys):
+    conveyor_80, table = Conveyor(acceleration=80.0), parameter_table(Conveyor(), z0=[0.0, 3e-4])
+    calls = {
+        "attractors": lambda label: conveyor.attractors(conveyor_80, samples=8, cycles=400, progress=label),
+        "basin": lambda label: conveyor.basin(conveyor_80, [0.0, 3e-4], cycles=400, progress=label),
+        "classify": lambda label: conveyor.classify(table, other_tolerance=1e-8, progress=label),
+        "strobes": lambda label: conveyor.strobes(conveyor_80, 50_000, progress=label),
+        "bifurcation_diagram": lambda label: conveyor.bifurcation_diagram(table, strobes=2, progress=label),
+        "continue_orbit": lambda label: conveyor.continue_orbit(orbit, "acceleration", (39.9, 40.1), progress=label),
+        "continue_bifurcation": lambda label: conveyor.continue_bifurcation(
+            doubling(), "damping", (0.25, 0.35), progress=label
+        ),
+    }
+    for name, call in calls.items():
+        call(name)
+        shown = [line for line in capsys.readouterr().err.splitlines() if line.startswith(f"{name}:")]
+        assert len(shown) == 1, (name, shown)
+        done, _, total = shown[0].split()[1:4]
+        assert total.startswith(("?", done)), shown
+
+
 INTERRUPTED = """
 import os, signal, threading, numpy as np
 from conveyor import *

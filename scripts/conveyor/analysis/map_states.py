@@ -6,6 +6,7 @@ from numpy.typing import ArrayLike
 from ..arguments import LARGEST_COORDINATE, MOST_CYCLES, check_array, check_count, check_tolerance
 from ..packing import as_table, check_row, check_rows
 from ..parameters import DEFAULT_TOLERANCE
+from ..progress import progress_bar
 from ..solver.model import Conveyor
 from . import stroboscopic_map
 
@@ -21,10 +22,17 @@ def initial_states(parameters: Conveyor | np.ndarray, *, tolerance: float = DEFA
     return stroboscopic_map.initial_states(check_rows(parameters)[0], check_tolerance(tolerance))
 
 
-def strobes(conveyor: Conveyor | np.ndarray, cycles: int, *, tolerance: float = DEFAULT_TOLERANCE) -> np.ndarray:
+def strobes(
+    conveyor: Conveyor | np.ndarray,
+    cycles: int,
+    *,
+    tolerance: float = DEFAULT_TOLERANCE,
+    progress: str | None = None,
+) -> np.ndarray:
     """The states (δ in m, v in m/s) of one motion after each of some cycles: shape (cycles, 2).
 
     conveyor : a Conveyor, or a row of a table with an initial condition
+    progress : as in `sweep`
 
     NaN from a failure on. At most 1e6 cycles.
 
@@ -36,7 +44,8 @@ def strobes(conveyor: Conveyor | np.ndarray, cycles: int, *, tolerance: float = 
     row, tolerance = check_row("conveyor", conveyor), check_tolerance(tolerance)
     cycles = check_count("cycles", cycles, 1, MOST_CYCLES)
     (state,) = stroboscopic_map.initial_states(row[None], tolerance)
-    return stroboscopic_map.follow_map(row, tolerance, state, cycles)[1]
+    with progress_bar(total=cycles, label=progress, unit="cycles") as shown:
+        return stroboscopic_map.follow_map(row, tolerance, state, cycles, shown.update)[1]
 
 
 def start_at(

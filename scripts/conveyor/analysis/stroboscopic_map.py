@@ -14,6 +14,7 @@ those of the contact law.
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -168,7 +169,11 @@ def advance(c, series, state, phase, duration, tangent, features):
 
 
 def follow_map(
-    parameters: np.ndarray, tolerance: float, state: np.ndarray, cycles: int
+    parameters: np.ndarray,
+    tolerance: float,
+    state: np.ndarray,
+    cycles: int,
+    count: Callable[[int], object] = lambda cycles: None,
 ) -> tuple[int, np.ndarray, np.ndarray]:
     """Advance `state` by a number of cycles.
 
@@ -180,6 +185,7 @@ def follow_map(
     tolerance : of the contact steps
     state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced by the last state
     cycles : excitation cycles
+    count : is called with numbers of cycles that are done
 
     Returns
     -------
@@ -195,6 +201,7 @@ def follow_map(
         if status != OK:
             break
         airborne = float(features[part][-1, AIRBORNE])
+        count(len(strobes[part]))
     return status, strobes, features
 
 

@@ -21,6 +21,7 @@ from ...columns import Columns
 from ...packing import as_table, check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
+from ...progress import progress_bar
 from ...solver.model import FREQUENCY, Conveyor
 from ..chaos import lyapunov
 from . import convergence_lanes
@@ -90,9 +91,14 @@ def classify(
     elif not all(np.array_equal(one, attractors.conveyor) for one in distinct_rows(parameters)[0]):
         raise ValueError("attractors are those of another conveyor; give an AttractorTable for several")
     table = attractors.table if isinstance(attractors, Attractors) else attractors
-    given = {"cycles": cycles, "attractors": attractors, "exponents": exponents, "threads": threads}
-    exponents = check_flag("exponents", exponents)
-    n = len(parameters)
+    exponents, n = check_flag("exponents", exponents), len(parameters)
+    if other_tolerance is not None:
+        both = tolerance, check_tolerance(other_tolerance, "other_tolerance")
+        given = {"cycles": cycles, "attractors": attractors, "exponents": exponents, "threads": threads}
+        with progress_bar(total=2 * n, label=progress) as shown:
+            rows = as_table(parameters).reshape(shape)
+            found, again = (classify(rows, **given, tolerance=one, progress=shown) for one in both)
+        return Columns({**found, "confirmed": (again.state == found.state) & (again.period == found.period)})
     trajectories, table_rows = new_trajectories(n), table.rows_of(parameters)
 
     def work(begin, end):
@@ -121,8 +127,4 @@ def classify(
     found = Columns({name: column.reshape(shape) for name, column in labels.items()})
     if isinstance(attractors, Attractors):
         found = Columns({**found, "attractor": identify(attractors, found)})
-    if other_tolerance is not None:
-        other_tolerance = check_tolerance(other_tolerance, "other_tolerance")
-        again = classify(as_table(parameters).reshape(shape), **given, tolerance=other_tolerance, progress=progress)
-        found = Columns({**found, "confirmed": (again.state == found.state) & (again.period == found.period)})
     return found

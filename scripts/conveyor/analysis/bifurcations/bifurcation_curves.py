@@ -28,6 +28,7 @@ from ... import linear_algebra
 from ...arguments import check_choice, check_limits, check_type
 from ...columns import Columns
 from ...packing import replace_parameters
+from ...progress import progress_bar
 from ..dimensionless_groups import Groups, amplitude_of, length_and_speed_units
 from .bifurcation_points import (
     EVALUATIONS,
@@ -210,6 +211,7 @@ def follow_bifurcation_curve(
     *,
     longest_step: float,
     most: int,
+    progress: str | None = None,
 ) -> BifurcationCurve:
     """Follow the curve of a bifurcation in both directions.
 
@@ -221,6 +223,7 @@ def follow_bifurcation_curve(
     reach : lowest and highest λ
     longest_step : largest arclength of a step, in (x, y, log Γ, λ)
     most : points in one direction after which the curve ends with "length"
+    progress : as in `continue_bifurcation`
 
     Examples
     --------
@@ -233,10 +236,12 @@ def follow_bifurcation_curve(
     equations = CurveEquations(point, path)
     begin = np.append(point.unknown[:2], [np.log(point.groups.amplitude), 0.0])
     limits = (*np.log(amplitude), *reach)
-    onwards, last = _side(equations, begin, np.array([0.0, 0.0, 0.0, 1.0]), limits, longest_step, most)
-    before, first = [], last
-    if last != CurveEnd.CLOSED:
-        before, first = _side(equations, begin, np.array([0.0, 0.0, 0.0, -1.0]), limits, longest_step, most)
+    upwards, before = np.array([0.0, 0.0, 0.0, 1.0]), []
+    with progress_bar(label=progress, unit="points") as shown:
+        onwards, last = _side(equations, begin, upwards, limits, longest_step, most, shown)
+        first = last
+        if last != CurveEnd.CLOSED:
+            before, first = _side(equations, begin, -upwards, limits, longest_step, most, shown)
     unknowns = [*before[:0:-1], *onwards]
     points = [equations.point(unknown) for unknown in unknowns]
     forms, rights = [], [np.array([1.0, 0.0])]
@@ -258,6 +263,7 @@ def follow_grazing_curve(
     reach: tuple[float, float],
     *,
     step: float,
+    progress: str | None = None,
 ) -> BifurcationCurve:
     """Follow the amplitude at which an orbit touches the plate (a grazing) in both directions, in equal steps of λ.
 
@@ -267,7 +273,7 @@ def follow_grazing_curve(
     Parameters
     ----------
     point : a grazing, at λ = 0
-    path, amplitude, reach : as in `follow_bifurcation_curve`
+    path, amplitude, reach, progress : as in `follow_bifurcation_curve`
     step : in λ
 
     Examples
@@ -279,28 +285,30 @@ def follow_grazing_curve(
     >>> [end.value for end in curve.ends], len(curve.points)
     (['limit', 'limit'], 11)
     """
-    path_points, ends, equations = [], [], CurveEquations(point, path)
-    for direction, end in ((-1.0, reach[0]), (1.0, reach[1])):
-        here, log_ratio, side, reason = point, 0.0, [], CurveEnd.LIMIT
-        while abs(log_ratio) < abs(end):
-            log_ratio = direction * min(abs(log_ratio) + step, abs(end))
-            groups = equations.groups(np.append(np.zeros(2), [np.log(here.groups.amplitude), log_ratio]))
-            there = find_bifurcation(GRAZING, point.period, here.unknown, groups)
-            if there is None or np.abs(there.unknown - here.unknown).max() > 3.0 * step:
-                reason = CurveEnd.LOST
-                break
-            here = there
-            side.append((here, log_ratio))
-            if not amplitude[0] <= here.groups.amplitude <= amplitude[1]:
-                break
-        path_points = [*side[::-1], (point, 0.0)] if direction < 0.0 else [*path_points, *side]
-        ends.append(reason)
+    path_points, ends, equations = [(point, 0.0)], [], CurveEquations(point, path)
+    with progress_bar(label=progress, unit="points") as shown:
+        for direction, end in ((-1.0, reach[0]), (1.0, reach[1])):
+            here, log_ratio, reason = point, 0.0, CurveEnd.LIMIT
+            while abs(log_ratio) < abs(end) and amplitude[0] <= here.groups.amplitude <= amplitude[1]:
+                log_ratio = direction * min(abs(log_ratio) + step, abs(end))
+                groups = equations.groups(np.append(np.zeros(2), [np.log(here.groups.amplitude), log_ratio]))
+                there = find_bifurcation(GRAZING, point.period, here.unknown, groups)
+                if there is None or np.abs(there.unknown - here.unknown).max() > 3.0 * step:
+                    reason = CurveEnd.LOST
+                    break
+                here = there
+                path_points.append((here, log_ratio))
+                shown.update()
+            ends.append(reason)
+    path_points.sort(key=lambda one: one[1])
     points, log_ratios = [one for one, _ in path_points], np.array([log_ratio for _, log_ratio in path_points])
     impacts = np.zeros(len(points), dtype=np.int64)
     return BifurcationCurve(points, log_ratios, np.full(len(points), np.nan), impacts, [], tuple(ends))
 
 
-def continue_bifurcation(bifurcation: Bifurcation, parameter: str, limits: Sequence[float]) -> Columns:
+def continue_bifurcation(
+    bifurcation: Bifurcation, parameter: str, limits: Sequence[float], *, progress: str | None = None
+) -> Columns:
     """The curve of a bifurcation over the amplitude and a second parameter, with its points of codimension two.
 
     Parameters
@@ -308,6 +316,7 @@ def continue_bifurcation(bifurcation: Bifurcation, parameter: str, limits: Seque
     bifurcation : of a branch from `continue_orbit`; the plate has no harmonics
     parameter : angle, damping, frequency, gravity, mass or stiffness
     limits : lowest and highest value of the parameter in SI units, on either side of the bifurcation's value
+    progress : as in `sweep`; the bar counts points, whose number is not known before
 
     Returns
     -------
@@ -342,9 +351,10 @@ def continue_bifurcation(bifurcation: Bifurcation, parameter: str, limits: Seque
     around = (point.groups.amplitude / FACTOR, point.groups.amplitude * FACTOR), tuple(end - begin for end in reach)
     path = PATHS[parameter](point.groups.exponent)
     if kind == GRAZING:
-        curve = follow_grazing_curve(point, path, *around, step=0.5 * LONGEST_STEP)
+        curve = follow_grazing_curve(point, path, *around, step=0.5 * LONGEST_STEP, progress=progress)
     else:
-        curve = follow_bifurcation_curve(point, path, *around, longest_step=LONGEST_STEP, most=MOST_POINTS)
+        longest = {"longest_step": LONGEST_STEP, "most": MOST_POINTS}
+        curve = follow_bifurcation_curve(point, path, *around, **longest, progress=progress)
     points = [(kind, one, part, form, "ok") for one, part, form in zip(*curve[:3], strict=True)]
     for end, next_to_end in ((0, 1), (-1, -2)) if len(points) > 1 else ():
         last = _at_limit(points[end], points[next_to_end], path, around[1])
@@ -386,7 +396,7 @@ def _at_limit(last, before, path, reach):
     return kind, found, limit, form, "ok"
 
 
-def _side(equations, begin, direction, limits, longest_step, most):
+def _side(equations, begin, direction, limits, longest_step, most, shown):
     """The unknowns along one direction of a curve, and the reason why it ends."""
     unknowns = [begin]
     lengths = {"first": min(FIRST_STEP, longest_step), "smallest": SMALLEST_STEP, "largest": longest_step}
@@ -395,6 +405,7 @@ def _side(equations, begin, direction, limits, longest_step, most):
         if equations.period % 2 == 0 and linear_algebra.dot(equations.halving(here), equations.halving(there)) < 0.0:
             return unknowns, CurveEnd.HALVED
         unknowns.append(there)
+        shown.update()
         if not (limits[0] <= there[2] <= limits[1] and limits[2] <= there[3] <= limits[3]):
             return unknowns, CurveEnd.LIMIT
         is_near = len(unknowns) > 3 and linear_algebra.length(there - begin) < length

@@ -56,18 +56,22 @@ def bifurcation_diagram(
     states = np.full((*lines.shape[:2], strobes, 2), np.nan)
     codes, lock = np.full(lines.shape[:2], NOT_FINITE), threading.Lock()
 
-    with progress_bar(total=len(rows), label=progress) as shown:
+    with progress_bar(total=len(rows) * (transient + strobes), label=progress, unit="cycles") as shown:
+
+        def count(cycles):
+            with lock:
+                shown.update(cycles)
 
         def work(begin, end):
             for k in range(begin, end):
                 (state,) = stroboscopic_map.initial_states(lines[k, :1], tolerance)
                 for i, row in enumerate(lines[k]):
-                    codes[k, i], visited, _ = stroboscopic_map.follow_map(row, tolerance, state, transient + strobes)
+                    codes[k, i], visited, _ = stroboscopic_map.follow_map(
+                        row, tolerance, state, transient + strobes, count
+                    )
                     states[k, i] = visited[transient:]
                     if codes[k, i] != OK:
                         break
-                    with lock:
-                        shown.update()
 
         for_each_chunk(work, len(lines), threads=threads, chunk=1)
     delta, v = np.moveaxis(states, -1, 0).reshape(2, *shape, strobes)

@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 from ... import linear_algebra
 from ...arguments import check_choice, check_limits, check_type
 from ...columns import Columns
+from ...progress import progress_bar
 from .newton import follow_curve
 from .periodic_orbits import SAME_ORBIT, Orbit, ReturnMap, check_orbit
 
@@ -84,7 +85,7 @@ def doubling_test(orbit: Orbit) -> float:
     return ((1.0 + first) * (1.0 + second)).real
 
 
-def continue_orbit(orbit: Orbit, parameter: str, limits: Sequence[float]) -> Branch:
+def continue_orbit(orbit: Orbit, parameter: str, limits: Sequence[float], *, progress: str | None = None) -> Branch:
     """The branch of an orbit in one parameter, with its folds, period doublings and grazings.
 
     Parameters
@@ -93,6 +94,7 @@ def continue_orbit(orbit: Orbit, parameter: str, limits: Sequence[float]) -> Bra
     parameter : acceleration, angle, frequency, stiffness, damping, mass, exponent, gravity or inclination
     limits : values in SI units between which the branch is followed, on either side of the orbit's value; a branch that
         reaches one of them ends at most one step before it
+    progress : as in `sweep`; the bar counts orbits, whose number is not known before
 
     Returns
     -------
@@ -109,20 +111,21 @@ def continue_orbit(orbit: Orbit, parameter: str, limits: Sequence[float]) -> Bra
     check_orbit("orbit", orbit)
     check_choice("parameter", parameter, CONTINUED)
     low, high = check_limits("limits", limits, parameter, orbit.value(parameter))
-    branch = follow_branch(orbit, parameter, (low, high))
+    branch = follow_branch(orbit, parameter, (low, high), progress=progress)
     return branch._replace(
         orbits=[one for one in branch.orbits if low <= one.value(parameter) <= high],
         bifurcations=[one for one in branch.bifurcations if low <= one.orbit.value(parameter) <= high],
     )
 
 
-def follow_branch(orbit: Orbit, parameter: str, limits: tuple[float, float]) -> Branch:
+def follow_branch(orbit: Orbit, parameter: str, limits: tuple[float, float], *, progress: str | None = None) -> Branch:
     """Follow the branch of `orbit` to both sides (Keller 1977), up to the first orbit beyond each of the limits."""
     upwards = np.array([0.0, 0.0, 1.0])
-    orbits, bifurcations, last, parent = _follow(orbit, parameter, limits, upwards)
-    if last == "closed":
-        return Branch(orbits, bifurcations, (last, last), None, parameter)
-    before, bifurcations_before, first, other = _follow(orbit, parameter, limits, -upwards)
+    with progress_bar(label=progress, unit="orbits") as shown:
+        orbits, bifurcations, last, parent = _follow(orbit, parameter, limits, upwards, shown)
+        if last == "closed":
+            return Branch(orbits, bifurcations, (last, last), None, parameter)
+        before, bifurcations_before, first, other = _follow(orbit, parameter, limits, -upwards, shown)
     return Branch(
         [*before[:0:-1], *orbits],
         [*reversed(bifurcations_before), *bifurcations],
@@ -132,7 +135,7 @@ def follow_branch(orbit: Orbit, parameter: str, limits: tuple[float, float]) -> 
     )
 
 
-def _follow(orbit, parameter, limits, direction):
+def _follow(orbit, parameter, limits, direction, shown):
     """Orbits and bifurcations in the order in which they are met, the reason of the end, and the orbit's parent."""
     returns = ReturnMap(orbit.parameters, orbit.period, parameter)
     here = returns.unknown(orbit)
@@ -147,6 +150,7 @@ def _follow(orbit, parameter, limits, direction):
             return orbits, bifurcations, "period halving", None if unknown is None else half.describe(unknown)
         orbits.append(returns.describe(there))
         bifurcations += bifurcations_between(returns, *orbits[-2:])
+        shown.update()
         if not limits[0] <= orbits[-1].value(parameter) <= limits[1]:
             return orbits, bifurcations, "limit", None
         advance = linear_algebra.dot(beginning - here, tangent)
