@@ -45,9 +45,11 @@ class Executor(RealExecutor):
                 script = (Path(str(job.rule.basedir)) / job.rule.script).resolve()
                 if str(script.parent) not in sys.path:
                     sys.path.insert(0, str(script.parent))
-                for file in (*job.output, *job.log, job.benchmark):
+                benchmarks = [job.benchmark] if job.benchmark else []
+                for file in (*job.output, *job.log, *benchmarks):
                     Path(file).parent.mkdir(parents=True, exist_ok=True)
-                Path(job.benchmark).write_text("s\tmax_rss\n0.0\t0.0\n")
+                for file in benchmarks:
+                    Path(file).write_text("s\tmax_rss\n0.0\t0.0\n")
                 if script.name == "draw.py" and "QUICK_FIGURES" in os.environ:
                     importlib.import_module("conveyor_pipeline.figures.style").save = save_quickly
                 given = SimpleNamespace(
