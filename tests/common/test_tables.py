@@ -25,11 +25,6 @@ def made(columns=None, schema=SCHEMA, settings=SETTINGS, kind="estimates"):
     return tables.make(kind, schema, columns or estimates(), settings)
 
 
-def nothing(rows):
-    """No expected values for any column."""
-    return {}
-
-
 @pytest.fixture
 def path(tmp_path):
     return tmp_path / "a.parquet"
@@ -131,49 +126,34 @@ def test_another_kind_or_other_settings_are_refused(path):
         tables.read(path, "estimates", {"model": SETTINGS["model"]})
 
 
+def shards_of(folder, whole, cuts):
+    """The files of shards of a table that is cut before some rows, and the rows of each."""
+    rows = [list(ends) for ends in pairwise([0, *cuts, len(whole)])]
+    paths = [folder / f"{number}.parquet" for number in range(len(rows))]
+    for path, (begin, end) in zip(paths, rows, strict=True):
+        own = json.dumps(SETTINGS | {"rows": [begin, end]})
+        metadata = whole.schema.metadata | {tables.SETTINGS: own}
+        tables.write(path, whole.slice(begin, end - begin).replace_schema_metadata(metadata))
+    return paths, rows
+
+
 @pytest.mark.parametrize("cuts", [[], [1, 2], range(1, 23)])
 def test_gathered_shards_have_the_bytes_of_the_whole(tmp_path, monkeypatch, cuts):
     """Row groups of five; no shard ends at one."""
     monkeypatch.setattr(tables, "ROW_GROUP", 5)
     whole = made(estimates_of(23))
     tables.write(tmp_path / "whole", whole)
-    paths = []
-    for number, (begin, end) in enumerate(pairwise([0, *cuts, 23])):
-        paths.append(tmp_path / f"{number}.parquet")
-        tables.write(paths[-1], whole.slice(begin, end - begin))
-    tables.gather(tmp_path / "gathered", paths, "estimates", SETTINGS, 23, nothing)
+    paths, rows = shards_of(tmp_path, whole, cuts)
+    tables.gather(tmp_path / "gathered", paths, "estimates", SETTINGS, rows)
     assert (tmp_path / "gathered").read_bytes() == (tmp_path / "whole").read_bytes()
 
 
-def test_shards_of_another_division_are_refused(tmp_path):
-    """Snakemake uses such shards if its only rerun trigger is the modification time."""
-    tables.write(tmp_path / "0.parquet", made())
-    with pytest.raises(tables.TableError, match=r"all\.parquet have 3 rows, not 5; delete them"):
-        tables.gather(tmp_path / "all.parquet", [tmp_path / "0.parquet"], "estimates", SETTINGS, 5, nothing)
-    assert not (tmp_path / "all.parquet").exists()
-
-
-def test_a_foreign_shard_is_named(tmp_path):
-    tables.write(tmp_path / "0.parquet", made())
-    tables.write(tmp_path / "1.parquet", made(settings=SETTINGS | {"duration": 2.0}))
-    with pytest.raises(tables.TableError, match=r"1\.parquet was made from settings other than those requested"):
-        shards = [tmp_path / "0.parquet", tmp_path / "1.parquet"]
-        tables.gather(tmp_path / "all", shards, "estimates", SETTINGS, 6, nothing)
-    assert not (tmp_path / "all").exists()
-
-
-def test_a_shard_of_other_rows_is_named(tmp_path):
+def test_a_shard_of_other_rows_or_settings_is_named(tmp_path):
     """For example, if one was copied over another by hand."""
-    accelerations = np.array([20.0, 55.0, 90.0, 91.0])
-
-    def wanted(rows):
-        return {"acceleration": accelerations[slice(*rows)]}
-
-    for name, rows in (("0", (0, 2)), ("1", (2, 4))):
-        tables.write(tmp_path / f"{name}.parquet", made(wanted(rows) | {"lambda": [0.0, 1.0]}))
-    paths = [tmp_path / "0.parquet", tmp_path / "1.parquet"]
-    tables.gather(tmp_path / "all", paths, "estimates", SETTINGS, 4, wanted)
+    paths, rows = shards_of(tmp_path, made(estimates_of(4)), [2])
+    with pytest.raises(tables.TableError, match=r"0\.parquet was made .*\(duration = 1.0, not 2.0\); delete it"):
+        tables.gather(tmp_path / "all", paths, "estimates", SETTINGS | {"duration": 2.0}, rows)
     paths[1].write_bytes(paths[0].read_bytes())
-    with pytest.raises(tables.TableError, match=r"1\.parquet does not contain rows 2 to 3 of its table; delete it"):
-        tables.gather(tmp_path / "none", paths, "estimates", SETTINGS, 4, wanted)
-    assert not (tmp_path / "none").exists()
+    with pytest.raises(tables.TableError, match=r"1\.parquet was made .*\(rows = \[0, 2\], not \[2, 4\]\); delete it"):
+        tables.gather(tmp_path / "all", paths, "estimates", SETTINGS, rows)
+    assert not (tmp_path / "all").exists()

@@ -30,15 +30,6 @@ def axis_values(name: str, axis: Axis) -> np.ndarray:
     return np.array([math.nan if value == "conveyor" else value for value in axis], dtype=np.float64)
 
 
-def columns_of_axes(axes: Mapping[str, Axis], rows: tuple[int, int] | None = None) -> dict[str, np.ndarray]:
-    """Values of the axes at the points of their product, by name, each of shape (n,); arguments as in `product`."""
-    values = {name: axis_values(name, axis) for name, axis in axes.items()}
-    shape = tuple(len(value) for value in values.values())
-    begin, end = rows or (0, math.prod(shape))
-    places = np.unravel_index(np.arange(begin, end), shape)
-    return {name: value[place] for (name, value), place in zip(values.items(), places, strict=True)}
-
-
 def conveyor_and_start(model: Mapping[str, float | str]) -> tuple[Conveyor, Start]:
     """A conveyor and an initial condition from values of parameters.PARAMETERS; missing ones have their defaults."""
     start = Start(model.get("z0", 0.0), model.get("vz0", 0.0))
@@ -66,7 +57,10 @@ def product(
     columns : values of the axes, each of shape (n,)
     parameters : as from `parameter_table`, shape (n,)
     """
-    columns = columns_of_axes(axes, rows)
+    axes_values = {name: axis_values(name, axis) for name, axis in axes.items()}
+    shape = tuple(map(len, axes_values.values()))
+    places = np.unravel_index(np.arange(*(rows or (0, math.prod(shape)))), shape)
+    columns = {name: values[place] for (name, values), place in zip(axes_values.items(), places, strict=True)}
     # Static friction is set last: its lower limit depends on the friction coefficient, which may be an axis.
     alone = {name: value for name, value in model.items() if name != "static_friction"}
     parameters = np.full(len(next(iter(columns.values()))), row_of(alone))

@@ -7,7 +7,7 @@ these. The metadata of the table also contain its kind and the settings that it 
 
 import json
 import os
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
@@ -26,8 +26,6 @@ KIND = b"kind"
 UNIT, UNITS = b"unit", b"units"
 # Stands for the value of a missing key in messages.
 MISSING = "nothing"
-# Function from the first row and the row after the last one to the expected values of columns, by name.
-Expected = Callable[[tuple[int, int]], Mapping[str, np.ndarray]]
 # The key under which pandas stores DataFrame.attrs.
 SETTINGS = b"PANDAS_ATTRS"
 
@@ -118,51 +116,29 @@ def write_blocks(path: str | Path, blocks: Iterable[pa.Table]) -> None:
 
 
 def gather(
-    path: str | Path, shards: Sequence[str | Path], kind: str, settings: dict, rows: int, expected: Expected
+    path: str | Path, shards: Sequence[str | Path], kind: str, settings: dict, rows: Sequence[Sequence[int]]
 ) -> None:
-    """Join the shards of a table, given in the order of their rows.
+    """Join the shards of a table, given in the order of their rows; TableError for a file that is not the shard.
 
     Parameters
     ----------
     path : of the table
     shards : files
-    kind, settings : that each shard must have
-    rows : number of rows of the table
-    expected : function to the values that some columns must have
-
-    Raises
-    ------
-    TableError
-        if a shard is not a table of this kind, was made from other settings or has other rows, or if the number of rows
-        is wrong
+    kind, settings : of the table
+    rows : first row of each shard, and the row after its last one, which the settings of a shard contain
     """
-    for shard in shards:
-        check(shard, kind, settings)
-    if (count := sum(pq.read_metadata(shard).num_rows for shard in shards)) != rows:
-        raise TableError(
-            f"the shards of {path} have {count} rows, not {rows}; delete them, and the next run makes them again"
-        )
-    write_blocks(path, read_blocks(shards, expected))
+    for shard, own in zip(shards, rows, strict=True):
+        check(shard, kind, settings | {"rows": own})
+    write_blocks(path, read_blocks(shards, settings))
 
 
-def read_blocks(shards: Sequence[str | Path], expected: Expected) -> Iterator[pa.Table]:
-    """The row groups of shards, one by one; TableError for a row group without the expected values."""
-    end = 0
+def read_blocks(shards: Sequence[str | Path], settings: dict) -> Iterator[pa.Table]:
+    """The row groups of shards, one by one, with the settings of their table."""
     for path in shards:
         with pq.ParquetFile(path) as file:
             for number in range(file.num_row_groups):
                 block = file.read_row_group(number)
-                begin, end = end, end + len(block)
-                if not has_values(block, expected((begin, end))):
-                    raise TableError(f"{path} does not contain rows {begin} to {end - 1} of its table; {REMEDY}")
-                yield block
-
-
-def has_values(block: pa.Table, values: Mapping[str, np.ndarray]) -> bool:
-    """Whether columns of a block have these values."""
-    return all(
-        pa.array(column, from_pandas=True).equals(block[name].combine_chunks()) for name, column in values.items()
-    )
+                yield block.replace_schema_metadata(block.schema.metadata | {SETTINGS: json.dumps(settings)})
 
 
 def check(path: str | Path, kind: str, settings: dict | None = None) -> None:

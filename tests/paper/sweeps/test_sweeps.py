@@ -1,6 +1,5 @@
 """Sweeps from the config: columns and rows, and independence of shards, blocks, threads and order."""
 
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 
 from conveyor import Conveyor, Start, simulate
 from conveyor.parameters import UNITS
-from conveyor_pipeline.common import fields, grid, tables
+from conveyor_pipeline.common import fields, tables
 from conveyor_pipeline.paper.sweeps import shards
 
 # The sweep of the README.
@@ -131,13 +130,14 @@ def in_one(tmp_path_factory):
 def gathered(folder, settings, count, threads):
     """The file of a sweep that is divided into this number of shards."""
     schema = [*(fields.AXES[axis] for axis in settings["axes"]), *shards.TABLES["sweeps"]]
-    paths, cuts = [], np.linspace(0, POINTS, count + 1).astype(int)
-    for number, rows in enumerate(pairwise(cuts.tolist())):
-        paths.append(folder / f"{number}.parquet")
-        blocks = shards.make(settings, rows, threads=threads)
-        tables.write_blocks(paths[-1], (tables.make("sweeps", schema, block, settings) for block in blocks))
-    wanted = partial(grid.columns_of_axes, settings["axes"])
-    tables.gather(folder / "all.parquet", paths, "sweeps", settings, POINTS, wanted)
+    cuts = np.linspace(0, POINTS, count + 1).astype(int)
+    rows = [list(ends) for ends in pairwise(cuts.tolist())]
+    paths = [folder / f"{number}.parquet" for number in range(count)]
+    for path, own in zip(paths, rows, strict=True):
+        of_shard = settings | {"rows": own}
+        blocks = shards.make(of_shard, threads=threads)
+        tables.write_blocks(path, (tables.make("sweeps", schema, block, of_shard) for block in blocks))
+    tables.gather(folder / "all.parquet", paths, "sweeps", settings, rows)
     return folder / "all.parquet"
 
 

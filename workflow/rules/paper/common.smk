@@ -19,16 +19,21 @@ def no_input_of_shard(wildcards):
     return []
 
 
-def points_of_sweep(wildcards):
-    """Number of rows of a sweep."""
-    return count_points(config["sweeps"][wildcards.name]["axes"])
+def rows_of_shard(name, shard):
+    """First row of a shard of a sweep, and the row after its last one."""
+    first = shard * config["sharing"]["rows"]
+    return [first, min(first + config["sharing"]["rows"], count_points(config["sweeps"][name]["axes"]))]
 
 
-def rows_of_shard(wildcards):
-    """First row of a shard, and the row after its last one. A sweep of one shard has no number of it."""
-    rows = config["sharing"]["rows"]
-    first = int(wildcards.get("shard", 0)) * rows
-    return [first, min(first + rows, points_of_sweep(wildcards))]
+def rows_of_shards(wildcards):
+    """The rows of all shards, in their order."""
+    return [rows_of_shard(wildcards.name, shard) for shard in range(SHARDS[wildcards.name])]
+
+
+def settings_of_shard(wildcards):
+    """The settings of the table, and the rows of the shard."""
+    rows = rows_of_shard(wildcards.name, int(wildcards.shard))
+    return settings_of_table(f"sweeps/{wildcards.name}") | {"rows": rows}
 
 
 def tables_of_claims(claims):

@@ -18,7 +18,6 @@ rule sweeps:
         runtime=lambda wildcards, attempt: 120 * attempt,
     params:
         **stage("conveyor_pipeline.paper.sweeps.shards", "sweeps/{name}"),
-        rows=rows_of_shard,
     script:
         "../../../scripts/conveyor_pipeline/make.py"
 
@@ -41,8 +40,8 @@ rule shards:
         mem_mb=lambda wildcards, attempt: 1000 * attempt,
         runtime=lambda wildcards, attempt: 120 * attempt,
     params:
-        **stage("conveyor_pipeline.paper.sweeps.shards", "sweeps/{name}"),
-        rows=rows_of_shard,
+        **stage("conveyor_pipeline.paper.sweeps.shards"),
+        settings=settings_of_shard,
     script:
         "../../../scripts/conveyor_pipeline/make.py"
 
@@ -60,8 +59,8 @@ rule joined_sweeps:
     wildcard_constraints:
         name=one_of(name for name, count in SHARDS.items() if count > 1),
     params:
-        settings=lambda wildcards: settings_of(config, f"sweeps/{wildcards.name}"),
-        points=points_of_sweep,
+        settings=lambda wildcards: settings_of_table(f"sweeps/{wildcards.name}"),
+        rows=rows_of_shards,
         code=lambda wildcards: code_of("conveyor_pipeline/gather"),
     script:
         "../../../scripts/conveyor_pipeline/gather.py"

@@ -1,5 +1,6 @@
 """Shards of sweeps: a trajectory for each point of a product of axes, and the state of motion that it leads to."""
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -20,14 +21,13 @@ TABLES = {
 }
 
 
-def make(
-    settings: dict, rows: tuple[int, int], *, threads: int = 1, progress: str | None = None
-) -> Iterator[dict[str, np.ndarray]]:
-    """The `columns` of some rows of a table of sweeps, in blocks of rows."""
-    blocks = range(*rows, BLOCK)
+def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> Iterator[dict[str, np.ndarray]]:
+    """The `columns` of a table of sweeps, in blocks of rows; the settings of a shard have its `rows`."""
+    first, end = settings.get("rows", (0, math.prod(map(grid.count_values, settings["axes"].values()))))
+    blocks = range(first, end, BLOCK)
     for number, begin in enumerate(blocks, start=1):
         label = progress and (f"{progress} ({number} of {len(blocks)})" if len(blocks) > 1 else progress)
-        yield columns(settings, (begin, min(begin + BLOCK, rows[1])), threads=threads, progress=label)
+        yield columns(settings, (begin, min(begin + BLOCK, end)), threads=threads, progress=label)
 
 
 def columns(
