@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 MOST_FAULTS = 5  # that a message names
+DELETE = "delete the line"
 SAMPLED = 300  # lines that show how a file separates its columns
 SEPARATORS = (";", "\t", ",", " ")
 NUMBER = re.compile(r"[-+]?(\d[\d.,'\u00a0\u202f]*|[.,]\d+)([eE][-+]?\d+)?")
@@ -51,13 +52,14 @@ class Table(NamedTuple):
         """The error that names faults, each with its line (None: the whole file)."""
         return TableError([f"{self.path}{'' if line is None else f':{line}'}: {fault}" for line, fault in faults])
 
-    def numbers(self, place: int, name: str) -> tuple[Any, list[tuple[int, str]]]:
-        """The numbers in a column as an array, and line and description of each text that is no number."""
+    def numbers(self, place: int, name: str, remedy: str = DELETE) -> tuple[Any, list[tuple[int, str]]]:
+        """The numbers in a column as an array, and line and description of each text that is no number; `remedy` says
+        what to do with a line without a number."""
         import numpy as np
 
         values = to_numbers(self.fields[place], self.signs)
         wrong = np.flatnonzero(~np.isfinite(values))
-        return values, [(int(self.lines[row]), number_fault(name, self.fields[place][row])) for row in wrong]
+        return values, [(int(self.lines[row]), number_fault(name, self.fields[place][row], remedy)) for row in wrong]
 
     def seconds(self, place: int, scale: float) -> tuple[Any, list[tuple[int, str]]]:
         """Times (s) from the first one on, from numbers in units of `scale` s, clock times or ISO dates; and faults."""
@@ -69,9 +71,8 @@ class Table(NamedTuple):
         else:
             numbers, _ = self.numbers(place, "time")
             time = (numbers - (numbers[0] if len(numbers) and np.isfinite(numbers[0]) else 0)) * scale
-        faults = [
-            (int(self.lines[row]), number_fault("time", texts[row])) for row in np.flatnonzero(~np.isfinite(time))
-        ]
+        wrong = np.flatnonzero(~np.isfinite(time))
+        faults = [(int(self.lines[row]), number_fault("time", texts[row], DELETE)) for row in wrong]
         for row in np.flatnonzero(np.diff(time) < 0.0) + 1:
             remedy = "sort the lines, or state excitation.rate (Hz) in place of the times"
             faults.append((int(self.lines[row]), f"time = {texts[row]} is earlier than the line before; {remedy}"))
@@ -316,13 +317,13 @@ def clock_seconds(texts: Any) -> Any:
     return time - time[0] + turn * np.cumsum(is_next)
 
 
-def number_fault(name: str, text: str) -> str:
+def number_fault(name: str, text: str, remedy: str) -> str:
     """Why a text is not a measured number, with the remedy."""
     shown = f"{name} = {text[:40]!r}"
     if not text:
-        return f"has no {name}; fill it in, or delete the line"
+        return f"has no {name}; fill it in, or {remedy}"
     if text.lstrip("+-").lower() in ("nan", "inf", "infinity") or re.fullmatch(r"[-+]?[\d.]+[eE]\+?\d+", text):
-        return f"{shown} is not a measured number; delete the line"
+        return f"{shown} is not a measured number; {remedy}"
     if re.fullmatch(r"[-+]?\d*,\d+", text):
         return f"{shown} has a decimal comma, other numbers have points; write {text.replace(',', '.')}"
     return f"{shown} is text; write a number without the unit"

@@ -168,7 +168,7 @@ def test_clipped_signals_are_rejected_with_their_first_line(limit, noise, mount)
 def test_a_sample_far_from_all_others_is_rejected_with_its_line():
     time, along, _ = LINES[41].split(",")
     fault = faults_of(with_line(42, f"{time},{along},{1e4}"))[0]
-    assert fault.startswith("mine.csv:42: normal = 1e+04 stands out of all other values; delete the line")
+    assert fault.startswith("mine.csv:42: normal = 1e+04 stands out of all other values; check the cable, and delete")
 
 
 def test_a_recording_of_gaps_is_rejected_with_the_line_after_the_first():

@@ -244,6 +244,61 @@ def test_two_sensors_in_one_file_are_refused(ratio, rate):
     assert "as two sensors in one file do" in fault_of(text_of(time, mixed))
 
 
+ORDERS_OF_SENSORS = {
+    "first second second": lambda count: np.arange(count) % 3 == 0,
+    "four and four": lambda count: np.arange(count) // 4 % 2 == 0,
+    "at random": lambda count: np.random.default_rng(5).random(count) < 0.5,
+    "one after the other": lambda count: np.arange(count) < 0.4 * count,
+}
+
+
+@pytest.mark.parametrize("order", ORDERS_OF_SENSORS)
+@pytest.mark.parametrize("ratio", [0.8, 1.21])
+def test_two_sensors_in_any_order_are_not_called_a_wrong_unit(order, ratio):
+    """The mean of both is up to 1.1 times gravity."""
+    time, readings = sampled(1730.0)
+    mixed = np.where(ORDERS_OF_SENSORS[order](len(time)), readings, ratio * readings)
+    fault = fault_of(text_of(time, mixed))
+    assert (
+        "two sensors in one file" in fault or "where the lines of another sensor, or of another mount, begin" in fault
+    )
+    assert "gravity," not in fault
+
+
+def test_an_amplitude_that_changes_at_once_is_no_other_sensor():
+    """Gravity stays as it is."""
+    time, readings = sampled(1730.0)
+    mean = readings.mean(axis=1, keepdims=True)
+    stepped = np.where(np.arange(len(time)) < 1000, readings, 1.05 * (readings - mean) + mean)
+    check(text_of(time, stepped), PURE.settings)
+
+
+@pytest.mark.parametrize("share", [0.02, 0.05, 0.09])
+@pytest.mark.parametrize("cycles", [10.0, 19.0])
+def test_random_losses_in_short_recordings_are_refused_or_part_of_the_error_of_the_frequency(cycles, share):
+    outside = 0
+    for seed in range(4):
+        time, readings = replace(PURE, noise=0.03, cycles=cycles, rate=833.0).record(seed)
+        kept = np.random.default_rng(seed).random(len(time)) > share
+        try:
+            values, errors, _, _ = estimates(text_of(time[: kept.sum()] - time[0], readings[:, kept]))
+        except TableError as error:
+            assert re.search("lost|swings|not steady", str(error))
+        else:
+            outside += abs(values["frequency"] - PURE.frequency) > 1.96 * errors["frequency"]
+    assert outside <= 1
+
+
+def test_a_line_without_a_reading_is_not_to_be_deleted_where_lines_are_counted():
+    lines = text_of(TIMES, READINGS).splitlines()
+    lines[50] = lines[50].split(",")[0] + ",NaN,"
+    text = "\n".join(lines)
+    assert "x = 'NaN' is not a measured number; delete the line" in fault_of(text)
+    fault = fault_of(text, rate=PURE.rate)
+    assert fault.count("keep a piece of the file without such lines, because excitation.rate counts") == 2
+    assert "delete" not in fault
+
+
 def test_times_too_coarse_for_the_rate_are_refused_and_a_rate_replaces_them():
     text = text_of(np.floor(TIMES), READINGS, digits=0)
     assert "state excitation.rate (Hz)" in fault_of(text)

@@ -23,6 +23,7 @@ import numpy as np
 from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
+from conveyor_pipeline.machine.excitation.gravity import NO_GRAVITY, Gravity
 from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of
 from conveyor_pipeline.machine.excitation.modulation import modulation_of
 from conveyor_pipeline.machine.excitation.reading import AXES, Recording, turn
@@ -33,6 +34,9 @@ SHARES = ("along", "along_phase", "normal", "normal_phase")
 # Frequencies on either side of a harmonic, in units of 1/T. The fit of the frequency takes a part of the first.
 FIRST, MOST_SIDEBANDS = 2, 24
 SLOW = 3  # first of them, at which a wandering phase shows
+# A random walk of the phase has a slope whose variance is this multiple of what the SLOW frequencies would say of white
+# noise; it counts where their power is clearly above the noise.
+WALK, CLEAR = 12.0, 2.0
 BLOCKS = 4096  # at most, into which the recording is summed; a block is short against the period of every sideband
 NORMAL = 1.96  # half width of a 95 % interval in standard errors
 # Chance that any harmonic counts as above the noise, if there are none: an overlay with a false one would change the
@@ -157,17 +161,6 @@ def variance(error: np.ndarray) -> np.ndarray:
     return (np.abs(error) ** 2).mean(axis=-1)
 
 
-class Doubt(NamedTuple):
-    """Systematic errors that the noise does not show."""
-
-    mount: float = 0.0  # rad, of the direction of the axes
-    scale: float = 0.0  # relative, of the accelerations
-    rate: float = 0.0  # relative, of the sampling rate
-
-
-NONE = Doubt()
-
-
 def values_of(amplitudes: np.ndarray, frequency: float) -> dict[str, float]:
     """The value of each of PARAMETERS."""
     along, normal = amplitudes[:, 0]
@@ -179,8 +172,16 @@ def values_of(amplitudes: np.ndarray, frequency: float) -> dict[str, float]:
     }
 
 
-def parameters(recording: Recording, fit: Fit, noise: Noise, doubt: Doubt = NONE) -> dict[str, tuple[float, float]]:
-    """Value and standard error of each of PARAMETERS."""
+def parameters(
+    recording: Recording, fit: Fit, noise: Noise, gravity: Gravity = NO_GRAVITY, rate_error: float = 0.0
+) -> dict[str, tuple[float, float]]:
+    """Value and standard error of each of PARAMETERS.
+
+    Where gravity deviates, the scale or the mount of the sensor is wrong by this much, or not at all, if the sensor has
+    an offset. An interval contains both, so the deviation widens it once, beside the noise.
+
+    rate_error : relative standard error of the sampling rate
+    """
     along, normal = fit.amplitudes[:, 0]
     acceleration = math.hypot(abs(along), abs(normal))
     cosine, sine = abs(along) / acceleration, abs(normal) / acceleration
@@ -190,8 +191,9 @@ def parameters(recording: Recording, fit: Fit, noise: Noise, doubt: Doubt = NONE
     weights = orders * np.abs(fit.amplitudes) ** 2
     total = (orders * weights).sum()
     phase = np.einsum("jk,jkm->m", weights, noise.phase) / total
-    slow = np.einsum("jk,jkm->m", weights, noise.slow) / total  # a phase that wanders looks like another frequency
-    spread = max(variance(phase), variance(slow)) + (weights**2 * noise.added).sum() / total**2
+    # A phase that wanders looks like another frequency.
+    near, slow = variance(phase), variance(np.einsum("jk,jkm->m", weights, noise.slow) / total)
+    spread = max(near, slow, WALK * (slow - CLEAR * near)) + (weights**2 * noise.added).sum() / total**2
     errors = {
         "acceleration": acceleration**2
         * (variance(cosine**2 * by_axis[0] + sine**2 * by_axis[1]) + cosine**4 * added[0] + sine**4 * added[1]),
@@ -201,12 +203,19 @@ def parameters(recording: Recording, fit: Fit, noise: Noise, doubt: Doubt = NONE
         "phase_shift": variance(noise.phase[0, 0] - noise.phase[1, 0]) + added.sum(),
     }
     values = values_of(fit.amplitudes, fit.frequency)
-    others = values_of(turn(fit.amplitudes, doubt.mount), fit.frequency * (1.0 + doubt.rate))
-    others["acceleration"] *= 1.0 + doubt.scale
-    changes = {name: others[name] - values[name] for name in PARAMETERS}
-    changes["phase_shift"] = float(wrap(changes["phase_shift"]))
+
+    def change(name: str, mount: float, scale: float, rate: float) -> float:
+        others = values_of((1.0 + scale) * turn(fit.amplitudes, mount), fit.frequency * (1.0 + rate))
+        return float(wrap(others[name] - values[name])) if name == "phase_shift" else others[name] - values[name]
+
+    found = gravity.found
     return {
-        name: (values[name], math.hypot(noise.student * math.sqrt(errors[name]), changes[name])) for name in PARAMETERS
+        name: (
+            values[name],
+            math.hypot(noise.student * math.sqrt(errors[name]), change(name, found.noise, found.noise, rate_error))
+            + abs(change(name, found.lean, found.size - 1.0, 0.0)) / NORMAL,
+        )
+        for name in PARAMETERS
     }
 
 
@@ -219,13 +228,13 @@ def shares_of(amplitudes: np.ndarray, orders: np.ndarray) -> dict[str, np.ndarra
     return columns
 
 
-def harmonics(fit: Fit, noise: Noise, doubt: Doubt = NONE) -> dict[str, np.ndarray]:
+def harmonics(fit: Fit, noise: Noise, gravity: Gravity = NO_GRAVITY) -> dict[str, np.ndarray]:
     """Shares and phases of the harmonics of orders 2 and higher with their standard errors, and which of them are above
     the noise, by column name, each of shape (K - 1,)."""
     orders = np.arange(2, fit.orders + 1)
     tests = 2 * len(orders)
     columns: dict[str, np.ndarray] = {"order": orders}
-    turned = turn(fit.amplitudes, doubt.mount)
+    turned = turn(fit.amplitudes, math.hypot(gravity.found.lean, gravity.found.noise))
     values, others = shares_of(fit.amplitudes, orders), shares_of(turned, orders)
     for axis, name in enumerate(AXES):
         share, phase = values[name], values[f"{name}_phase"]

@@ -9,25 +9,37 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from conveyor_pipeline.machine.excitation.gravity import direction_fault, gravity_of, size_fault
+from conveyor_pipeline.machine.excitation.gravity import SURE, direction_fault, gravity_of, size_fault
 from conveyor_pipeline.machine.excitation.harmonics import (
     Fit,
     duration_of,
     first_fit,
+    fit,
     gaps_of,
     sampling_rate,
     steadiness,
 )
+from conveyor_pipeline.machine.excitation.mixture import mixture_of
 from conveyor_pipeline.machine.excitation.modulation import (
+    Jump,
     Modulation,
     alternates,
+    errors_of,
     is_sawtooth,
     jump_of,
-    lost_samples,
+    losses_of,
     modulation_of,
     timing_line,
 )
-from conveyor_pipeline.machine.excitation.reading import DIRECTIONS, TIME_UNITS, UNITS, Recording, parse
+from conveyor_pipeline.machine.excitation.reading import (
+    DIRECTIONS,
+    STANDARD_GRAVITY,
+    TIME_UNITS,
+    UNITS,
+    Recording,
+    parse,
+    remedy_of_line,
+)
 from conveyor_pipeline.machine.excitation.sample_times import CHECKED, MOST_EQUAL, MOST_GAPS, keep, repeats, resolve
 
 LEAST_CYCLES = 8
@@ -39,7 +51,8 @@ LEAST_FREQUENCY = 3.0  # Hz; with half of gravity, a plate would move by 14 mm
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
 DIFFERENT = 2.0  # difference of two frequencies in units of 1/T
 OTHER_FREQUENCY = 0.01  # relative difference from a stated frequency: more than clocks differ, and than a motor slips
-CHANCE = 1e-4  # that noise alone looks like a jump of the phase
+LEAST_CHANGE = 0.01  # of gravity, where another sensor begins
+CHANCE = 1e-4  # that noise alone looks like a jump of the phase or the amplitude
 MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
 MOST_RATE_ERROR = 2e-3  # relative standard error of the sampling rate
 MOST_SCATTER = 0.3  # rad, of the phase: times that the samples were not taken at
@@ -111,6 +124,12 @@ class Signal(NamedTuple):
     def rate(self) -> float:
         return sampling_rate(self.recording.time)
 
+    def jump(self, part: str) -> Jump | None:
+        """The jump of the phase (`imag`) or of the amplitude (`real`), if there is one alone."""
+        time = self.recording.time[: self.fitted.residual.shape[1]]
+        found = jump_of(time, getattr(errors_of(time, self.fitted), part))
+        return found if found.is_alone and found.is_found(CHANCE) else None
+
     @property
     def sizes(self) -> np.ndarray:
         """Amplitudes of the fundamentals, m/s²."""
@@ -140,8 +159,8 @@ def reading_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
             sample = int(np.argmax(sizes))
             yield (
                 int(recording.lines[sample]),
-                f"{name} = {readings[sample] / scale:.4g} stands out of all other values; delete the line, and "
-                "check the cable",
+                f"{name} = {readings[sample] / scale:.4g} stands out of all other values; check the cable, and "
+                f"{remedy_of_line(recording.sampling == 'rate')}",
             )
             return
         if (sample := clipped(readings, recording.quanta.max())) is not None:
@@ -211,7 +230,7 @@ def count_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 
 
 def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
-    """Samples that are lost, that come from two sensors, or whose times are wrong."""
+    """Samples that are lost, or whose times are wrong."""
     found, time = signal.modulation, signal.recording.time
     line = timing_line(time[: signal.fitted.residual.shape[1]], signal.fitted, found)
     if line and line[0] * signal.rate < 0.25 * signal.fitted.frequency and not is_sawtooth(found, line[0]):
@@ -230,25 +249,18 @@ def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             f"times are not those of the samples. If every {every:.3g}th sample is lost, the drive vibrates at "
             f"{right:.5g} Hz; record without losses, or with the time of each sample",
         )
-    elif half := alternates(found):
-        yield (
-            None,
-            f"alternates from line to line between amplitudes that differ by {200.0 * half:.2g} %, as two sensors in "
-            "one file do, or one whose samples are lost regularly; keep the lines of one sensor, and record without "
-            "losses",
-        )
-    elif (jump := jump_of(time[: signal.fitted.residual.shape[1]], signal.fitted)).is_alone and jump.is_found(CHANCE):
+    elif jump := signal.jump("imag"):
         yield (
             int(signal.recording.lines[jump.sample]),
             f"follows a jump of the phase by {jump.size:.2g} rad, as where samples are lost and the times do not show "
             f"it, so that the frequency would be wrong by {abs(jump.shift):.2g} Hz; keep a piece without the jump, or "
             "record without losses",
         )
-    elif lost := lost_samples(time[: signal.fitted.residual.shape[1]], signal.fitted, found):
+    elif (lost := losses_of(time[: signal.fitted.residual.shape[1]], signal.fitted, found)).is_sure:
         yield (
             None,
-            f"has a phase that jumps, as where about {max(lost, 1.0):.0f} samples are lost and the times do not show "
-            "it, so that its frequency is wrong; record without losses, or with the time of each sample",
+            f"has a phase that jumps, as where about {max(lost.count, 1.0):.0f} samples are lost and the times do not "
+            "show it, so that its frequency is wrong; record without losses, or with the time of each sample",
         )
     elif found.scatter > MOST_SCATTER:
         scatter = found.scatter / (2.0 * math.pi * signal.fitted.frequency)
@@ -259,10 +271,51 @@ def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
         )
 
 
+def sensor_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """Two sensors in one file, line by line or one after the other."""
+    recording, fitted = signal.recording, signal.fitted
+    if half := alternates(signal.modulation):
+        yield (
+            None,
+            f"alternates from line to line between amplitudes that differ by {200.0 * half:.2g} %, as two sensors in "
+            "one file do, or one whose samples are lost regularly; keep the lines of one sensor, and record without "
+            "losses",
+        )
+    elif jump := signal.jump("real"):
+        parts = [slice(0, jump.sample), slice(jump.sample, fitted.residual.shape[1])]
+        first, last = (
+            fit(recording.time[part], recording.acceleration[:, part], fitted.frequency, fitted.orders)
+            for part in parts
+        )
+        change = float(np.hypot(*(last.offsets - first.offsets)))
+        noise = math.sqrt(sum((one.residual**2).mean() / one.residual.shape[1] for one in (first, last)))
+        if change > LEAST_CHANGE * STANDARD_GRAVITY + SURE * noise:
+            yield (
+                int(recording.lines[jump.sample]),
+                f"follows a change of the amplitude by {100.0 * abs(jump.size):.2g} % and of gravity by {change:.2g} "
+                "m/s², as where the lines of another sensor, or of another mount, begin; keep the lines of one sensor",
+            )
+
+
+def mixture_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """Lines of two sensors in any order."""
+    recording, fitted = signal.recording, signal.fitted
+    # Lost samples and steps of the converter make patterns, too.
+    if (fitted.residual**2).mean() < recording.quanta.max() ** 2 or next(sampling_faults(signal), None):
+        return
+    count = fitted.residual.shape[1]
+    if difference := mixture_of(recording.time[:count], recording.acceleration[:, :count], fitted):
+        yield (
+            None,
+            f"mixes lines with amplitudes that differ by {100.0 * difference:.2g} %, as two sensors in one file do; "
+            "keep the lines of one sensor",
+        )
+
+
 def saturation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """Peaks that are cut off, behind which there is noise."""
     recording, fitted = signal.recording, signal.fitted
-    if next(sampling_faults(signal), None) is not None:
+    if next(sampling_faults(signal), None):
         return
     phases = np.sort(np.mod((recording.time - fitted.middle) * fitted.frequency, 1.0))
     gap = max(float(np.diff(phases).max()), 1.0 + phases[0] - phases[-1])
@@ -300,7 +353,7 @@ def ambiguity_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 def steadiness_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """An amplitude that changes, or a second vibration."""
     frequency, other = signal.fitted.frequency, signal.other
-    if next(sampling_faults(signal), None) is not None:
+    if next(sampling_faults(signal), None):
         return
     steady = steadiness(signal.recording.time[: signal.fitted.residual.shape[1]], signal.fitted)
     if (deviation := steady["deviation"]) > max(UNSTEADY, 3.0 * steady["deviation_of_noise"]):
@@ -402,7 +455,9 @@ def share_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 OF_TIMES = ((time_faults, interpolation_faults), (gap_faults,))
 OF_SIGNAL = (
     (count_faults,),
+    (sensor_faults,),
     (saturation_faults,),
+    (mixture_faults,),
     (frequency_faults, sampling_faults, unit_faults, steadiness_faults),
     (ambiguity_faults,),
     (share_faults,),

@@ -45,14 +45,12 @@ class Gravity(NamedTuple):
     noise: float  # standard error of both
 
     @property
-    def size_error(self) -> float:
-        """Relative error of the scale of the sensor: the deviation, and its standard error."""
-        return math.hypot(self.size - 1.0, self.noise) if self.present else 0.0
+    def found(self) -> "Gravity":
+        """The same with no deviation and no noise if there is no gravity to compare with."""
+        return self if self.present else NO_GRAVITY
 
-    @property
-    def mount_error(self) -> float:
-        """The angle (rad) by which the sensor may be mounted more than stated, likewise."""
-        return math.hypot(self.lean, self.noise) if self.present else 0.0
+
+NO_GRAVITY = Gravity(False, 1.0, 0.0, 0.0)
 
 
 def wrap(angle: float) -> float:

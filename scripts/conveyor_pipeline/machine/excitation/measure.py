@@ -6,7 +6,7 @@ import numpy as np
 from scipy.ndimage import median_filter
 
 from conveyor_pipeline.common import csv_table, fields
-from conveyor_pipeline.machine.excitation.estimates import PARAMETERS, Doubt, harmonics, noise_of, parameters
+from conveyor_pipeline.machine.excitation.estimates import NORMAL, PARAMETERS, harmonics, noise_of, parameters
 from conveyor_pipeline.machine.excitation.gravity import gravity_of
 from conveyor_pipeline.machine.excitation.harmonics import (
     Fit,
@@ -18,7 +18,7 @@ from conveyor_pipeline.machine.excitation.harmonics import (
     spectrum,
     steadiness,
 )
-from conveyor_pipeline.machine.excitation.modulation import jump_of
+from conveyor_pipeline.machine.excitation.modulation import errors_of, jump_of, losses_of, modulation_of
 from conveyor_pipeline.machine.excitation.reading import (
     AXES,
     DIRECTIONS,
@@ -28,7 +28,7 @@ from conveyor_pipeline.machine.excitation.reading import (
     parse,
     wanted,
 )
-from conveyor_pipeline.machine.excitation.sample_times import resolve
+from conveyor_pipeline.machine.excitation.sample_times import CHECKED, resolve
 
 DIGITS = 10  # of all numbers; further digits depend on the processor, and no sensor has them
 SAMPLES, POINTS, BINS = 2000, 257, 2000  # of the figure
@@ -112,6 +112,16 @@ TABLES = {
 }
 
 
+def loss_error(recording: Recording, fitted: Fit) -> float:
+    """Relative error of the frequency from samples that may be lost at one place or at random, beside the noise."""
+    jump = jump_of(recording.time, errors_of(recording.time, fitted).imag)
+    time = recording.time[:CHECKED]
+    part = fitted._replace(residual=fitted.residual[:, :CHECKED])
+    most = losses_of(time, part, modulation_of(time, part)).most
+    shift = jump.shift / fitted.frequency if jump.is_found(UNSURE) else 0.0
+    return math.hypot(shift, most / NORMAL / len(time) if most > 1.0 else 0.0)
+
+
 def rounded(columns: dict) -> dict:
     """The columns with DIGITS significant digits."""
 
@@ -173,14 +183,11 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
         fit(one.time, one.acceleration, first.frequency, orders) for one in (recording, *recording.others)
     )
     noise, gravity = noise_of(recording, fitted, tuple(others)), gravity_of(fitted, settings["inclination"])
-    # A jump of the phase, if there may be one, has moved the frequency.
-    jump = jump_of(recording.time, fitted)
-    shift = jump.shift / fitted.frequency if jump.is_found(UNSURE) else 0.0
-    doubt = Doubt(gravity.mount_error, gravity.size_error, math.hypot(recording.rate_error, shift))
-    shares = harmonics(fitted, noise, doubt)
+    rate_error = math.hypot(recording.rate_error, loss_error(recording, fitted))
+    shares = harmonics(fitted, noise, gravity)
     above = np.array([shares[f"{axis}_above_noise"] for axis in AXES])
     distortion = np.sqrt((np.array([shares[axis] for axis in AXES]) ** 2 * above).sum(axis=1))
-    values, errors = zip(*parameters(recording, fitted, noise, doubt).values(), strict=True)
+    values, errors = zip(*parameters(recording, fitted, noise, gravity, rate_error).values(), strict=True)
     cycle = cycles_of(recording, fitted)
     chosen = np.unique(np.linspace(0, len(cycle) - 1, SAMPLES).round().astype(np.int64))
     quality = {

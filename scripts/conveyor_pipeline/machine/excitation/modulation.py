@@ -27,6 +27,7 @@ LEAST_GAIN, ALTERNATING = 0.003, 5.0
 # at higher frequencies and with the power of the amplitude.
 JUMPS, ABOVE_JUMPS = (0.1, 0.5), 1.5
 LEAST_LINES, MANY_LINES, LEAST_LOST = 5, 10, 0.3
+SHORT = 0.25  # lowest of these frequencies in a short recording, in units of the drive's
 # The first frequencies tell a jump from a swing of the phase: a jump alone leaves at most this share of their power.
 SLOW_LINES, ALONE = 7, 0.1
 EDGE = 0.03  # energy that a straight line leaves of a step, per sample, below which the step is too near an end
@@ -109,26 +110,36 @@ def alternates(found: Modulation) -> float | None:
     return float(gain.max()) if counts.all() and (gain > 8.0 * found.alternating_noise).any() else None
 
 
-def lost_samples(time: np.ndarray, fitted: Fit, found: Modulation) -> float | None:
-    """About how many samples are lost between times that do not show it, or None.
+class Losses(NamedTuple):
+    """Samples that seem to be lost between times that do not show it."""
+
+    count: float
+    most: float  # 95 % upper limit
+    is_sure: bool  # whether no noise looks like it
+
+
+def losses_of(time: np.ndarray, fitted: Fit, found: Modulation) -> Losses:
+    """About how many samples are lost at random.
 
     Each loss turns the phase by 2π d, with d the drive's frequency in cycles per sample. If the share p of the samples
     is lost at random, the phase has the noise 2 p d²/ν² at the modulation frequency ν (cycles per sample), and the
     amplitude has none.
     """
+    from scipy.special import chdtri
+
     count, drive = 2 * (len(time) // 2), fitted.frequency / sampling_rate(time)
-    lowest, highest = max(JUMPS[0] * drive, SLOW / count), JUMPS[1] * drive
-    band = (found.frequency > lowest) & (found.frequency < highest)
+    lowest, highest = max(JUMPS[0] * drive, min(SLOW / count, SHORT * drive)), JUMPS[1] * drive
+    band = (found.frequency >= lowest) & (found.frequency < highest)
     lines, noise = np.count_nonzero(band), found.frequency > ABOVE_JUMPS * drive
-    if lines < LEAST_LINES:
-        return None
-    power = {name: np.median(values[band] ** 2) for name, values in (("phase", found.phase), ("gain", found.gain))}
+    phase, gain = (np.median(values[band] ** 2) for values in (found.phase, found.gain))
     floor = np.median(found.phase[noise] ** 2)
-    if power["phase"] < ONE_SIDED * (1.0 + MANY_LINES / lines) * max(power["gain"], floor):
-        return None
     # The square of an amplitude with a Hann window is 3/N times the power per frequency.
     share = np.median(found.frequency[band] ** 2 * (found.phase[band] ** 2 - floor)) * count / (6.0 * drive**2)
-    return float(share * count) if share * count > LEAST_LOST else None
+    ratio = phase / max(gain, floor)
+    lost = float(share * count) if ratio > ONE_SIDED else 0.0
+    is_sure = lines >= LEAST_LINES and ratio > ONE_SIDED * (1.0 + MANY_LINES / lines) and lost > LEAST_LOST
+    # The median of the lines of a Hann window has about as many degrees of freedom as lines.
+    return Losses(lost, lost * lines / float(chdtri(lines, 0.95)), bool(is_sure))
 
 
 def evidence_limit(chance: float) -> float:
@@ -139,30 +150,40 @@ def evidence_limit(chance: float) -> float:
 
 
 class Jump(NamedTuple):
-    """The jump of the drive's phase that explains most of a residual."""
+    """The jump of the drive's phase or amplitude that explains most of a residual."""
 
     sample: int  # the first one after the jump
-    size: float  # rad
-    shift: float  # Hz, largest difference of the frequency of a half of the recording from the fitted one
+    size: float  # rad, or relative
+    slope: float  # rad/s, or 1/s: largest one of a half of the recording
     evidence: float  # squared size over its variance; chi-squared with one degree of freedom if there is no jump
-    is_alone: bool  # whether hardly any slow change of the phase remains without it
+    is_alone: bool  # whether hardly any slow change remains without it
 
     def is_found(self, chance: float) -> bool:
         """Whether noise alone would look like it with less than this probability."""
         return self.evidence > evidence_limit(chance)
 
+    @property
+    def shift(self) -> float:
+        """Largest difference of the frequency of a half of the recording from the fitted one (Hz), by the phase."""
+        return self.slope / (2.0 * math.pi)
 
-def jump_of(time: np.ndarray, fitted: Fit) -> Jump:
-    """The jump of the phase that fits the residual best.
 
-    The fit of the frequency has taken a straight line out of the phase, so only what a line leaves of a step tells the
-    size of a jump.
-    """
+def errors_of(time: np.ndarray, fitted: Fit) -> np.ndarray:
+    """Relative errors of the amplitude (real part) and errors of the phase (rad, imaginary part), shape (n,)."""
     weights = np.abs(fitted.amplitudes[:, :1]) ** 2
     fundamental = fitted.amplitudes[:, :1] * np.exp(2j * math.pi * fitted.frequency * (time - fitted.middle))
-    error = 2.0 * (fitted.residual * np.conj(fundamental)).imag.sum(axis=0) / weights.sum()
+    return 2.0 * (fitted.residual * np.conj(fundamental)).sum(axis=0) / weights.sum()
+
+
+def jump_of(time: np.ndarray, error: np.ndarray) -> Jump:
+    """The jump that fits one part of the errors best.
+
+    The fit of the frequency has taken a straight line out of the phase, and an amplitude may drift, so only what a line
+    leaves of a step tells the size of a jump.
+    """
     count, centred = len(time), time - time.mean()
     length = math.sqrt((centred**2).sum())
+    error = error - error.mean() - (error @ centred) * centred / length**2
     # Sums over the samples after each place: their number, and the products of a step with the line and with the error.
     after, line, sums = (np.cumsum(part[::-1])[::-1][1:] for part in (np.ones(count), centred / length, error))
     energy = after * (1.0 - after / count) - line**2
@@ -177,7 +198,7 @@ def jump_of(time: np.ndarray, fitted: Fit) -> Jump:
     return Jump(
         place + 1,
         size,
-        float(np.abs(slopes).max()) / (2.0 * math.pi),
+        float(np.abs(slopes).max()),
         float(sums[place] ** 2 / energy[place] / noise),
         bool(rest[slow].sum() < ALONE * before[slow].sum()),
     )

@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from conveyor_pipeline.common.csv_table import DELETE
+
 STANDARD_GRAVITY = 9.80665  # m/s², the unit g
 UNITS = {"m/s²": 1.0, "g": STANDARD_GRAVITY, "mm/s²": 1e-3, "mg": 1e-3 * STANDARD_GRAVITY}
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9}
@@ -200,7 +202,7 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
         raise table.error((table.header, fault) for fault in faults)
     readings, lines = [], table.lines
     for key in pair:
-        values, wrong = table.numbers(places[key], key)
+        values, wrong = table.numbers(places[key], key, remedy_of_line(rate is not None))
         readings.append(-values if names[key].startswith("-") and names[key] not in table.names else values)
         faults += wrong
     if rate is None:
@@ -221,6 +223,15 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
     return Recording(
         *(time, turn(measured, mount), pair, measured, quanta, lines, names, unit, time_unit),
         sampling="stamped" if rate is None else "rate",
+    )
+
+
+def remedy_of_line(is_counted: bool) -> str:
+    """What to do with a line without a reading; where lines are counted, those behind it would get wrong times."""
+    return (
+        "keep a piece of the file without such lines, because excitation.rate counts all of them"
+        if is_counted
+        else DELETE
     )
 
 
