@@ -163,3 +163,23 @@ def test_braces_in_the_name_of_a_measured_file_or_its_folder_are_refused(project
     (folder / "mine.yaml").write_text("prefix: mine\ncalibration: {measurements: mine.csv}\n")
     run = project.called("--dry-run", "results/mine/calibration.md", "--configfile", str(folder / "mine.yaml"))
     assert_refused(run, "a{x}/mine.csv' has braces, which Snakemake takes for a wildcard; rename the file or folder")
+
+
+def test_columns_with_a_minus_reach_the_overlay_of_the_measured_drive(project):
+    """The example's sensor upside down: both files give the same drive."""
+    text = (ROOT / "config/examples/accelerometer.csv").read_text()
+    lines = [line for line in text.splitlines() if not line.startswith("#")][1:]
+    rows = [f"{time},{-float(x):g},{-float(z):g}" for time, x, z in (line.split(",") for line in lines)]
+    drives = []
+    for prefix, content, columns in (
+        ("upright", text, {}),
+        ("mirrored", "\n".join(["clock,accel_x,accel_z", *rows]), {"time": "clock", "x": "-accel_x", "z": "-accel_z"}),
+    ):
+        (project.folder / f"{prefix}.csv").write_text(content)
+        excitation = {"measured": f"{prefix}.csv", "unit": "g", "mount": 0.1, "columns": columns}
+        own = project.under({"prefix": prefix, "excitation": excitation})
+        own.make_in_process(f"results/{prefix}/measured_drive.yaml")
+        assert own.planned(f"results/{prefix}/excitation.md") == {"excitation_comparison": 1, "excitation_page": 1}
+        drives.append(yaml.safe_load((project.folder / f"results/{prefix}/measured_drive.yaml").read_text())["model"])
+    assert drives[0] == drives[1]
+    assert drives[0]["frequency"] == pytest.approx(50.0, rel=1e-4)

@@ -32,7 +32,8 @@ def mixture_of(time: np.ndarray, signals: np.ndarray, fitted: Fit) -> float | No
     # Where the signal is small, both fits are equally near.
     is_clear = np.abs(errors[1] - errors[0]) > np.median(np.abs(errors[1] - errors[0]))
     turns = np.diff(is_second[is_clear]).mean()
-    if errors.min(axis=0).sum() > LEFT * (fitted.residual**2).sum() or turns < LEAST_TURNS:
+    # The median heeds no spikes.
+    if np.median(errors.min(axis=0)) > LEFT * np.median((fitted.residual**2).sum(axis=0)) or turns < LEAST_TURNS:
         return None
     first, second = (np.hypot(one[2], one[2 + fitted.orders]) for one in both)
     return float(np.abs(second / first - 1.0).max())
