@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from accelerometer import Drive, read
 
-from conveyor_pipeline.machine.excitation.estimates import SHARES, harmonics, noise_of, parameters, wrap
+from conveyor_pipeline.machine.excitation.estimates import SHARES, harmonics, noise_of, parameters
+from conveyor_pipeline.machine.excitation.gravity import wrap
 from conveyor_pipeline.machine.excitation.harmonics import fit, orders_of, sampling_rate, strongest
 
 HARMONICS = ((2, 0.05, 0.7, 0.08, -2.5), (3, 0.02, 3.0, 0.03, 1.0), (5, 0.01, -1.0, 0.0, 0.0))

@@ -23,7 +23,7 @@ import numpy as np
 from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
-from conveyor_pipeline.machine.excitation.gravity import NO_GRAVITY, Gravity
+from conveyor_pipeline.machine.excitation.gravity import NO_GRAVITY, Gravity, wrap
 from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of
 from conveyor_pipeline.machine.excitation.modulation import modulation_of
 from conveyor_pipeline.machine.excitation.reading import AXES, Recording, turn
@@ -63,11 +63,6 @@ class Noise(NamedTuple):
     def student(self) -> float:
         """Factor from a standard deviation of few degrees of freedom to one whose 1.96-fold is a 95 % interval."""
         return float(t_distribution.ppf(0.975, self.degrees)) / NORMAL
-
-
-def wrap(phase: np.ndarray) -> np.ndarray:
-    """Phases in (-π, π]."""
-    return math.pi - np.mod(math.pi - phase, 2.0 * math.pi)
 
 
 def phases_of(recording: Recording, fit: Fit) -> int:
@@ -206,7 +201,7 @@ def parameters(
 
     def change(name: str, mount: float, scale: float, rate: float) -> float:
         others = values_of((1.0 + scale) * turn(fit.amplitudes, mount), fit.frequency * (1.0 + rate))
-        return float(wrap(others[name] - values[name])) if name == "phase_shift" else others[name] - values[name]
+        return wrap(others[name] - values[name]) if name == "phase_shift" else others[name] - values[name]
 
     found = gravity.found
     return {

@@ -121,13 +121,17 @@ class Signal(NamedTuple):
     settings: Mapping[str, Any]  # of the section `excitation`, with `inclination` and `frequency`, if it is stated
 
     @property
+    def time(self) -> np.ndarray:
+        """Of the samples that were fitted, s."""
+        return self.recording.time[: self.fitted.residual.shape[1]]
+
+    @property
     def rate(self) -> float:
         return sampling_rate(self.recording.time)
 
     def jump(self, part: str) -> Jump | None:
         """The jump of the phase (`imag`) or of the amplitude (`real`), if there is one alone."""
-        time = self.recording.time[: self.fitted.residual.shape[1]]
-        found = jump_of(time, getattr(errors_of(time, self.fitted), part))
+        found = jump_of(self.time, getattr(errors_of(self.time, self.fitted), part))
         return found if found.is_alone and found.is_found(CHANCE) else None
 
     @property
@@ -231,8 +235,8 @@ def count_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 
 def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """Samples that are lost, or whose times are wrong."""
-    found, time = signal.modulation, signal.recording.time
-    line = timing_line(time[: signal.fitted.residual.shape[1]], signal.fitted, found)
+    found = signal.modulation
+    line = timing_line(signal.time, signal.fitted, found)
     if line and line[0] * signal.rate < 0.25 * signal.fitted.frequency and not is_sawtooth(found, line[0]):
         yield (
             None,
@@ -256,7 +260,7 @@ def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             f"it, so that the frequency would be wrong by {abs(jump.shift):.2g} Hz; keep a piece without the jump, or "
             "record without losses",
         )
-    elif (lost := losses_of(time[: signal.fitted.residual.shape[1]], signal.fitted, found)).is_sure:
+    elif (lost := losses_of(signal.time, signal.fitted, found)).is_sure:
         yield (
             None,
             f"has a phase that jumps, as where about {max(lost.count, 1.0):.0f} samples are lost and the times do not "
@@ -282,7 +286,7 @@ def sensor_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             "losses",
         )
     elif jump := signal.jump("real"):
-        parts = [slice(0, jump.sample), slice(jump.sample, fitted.residual.shape[1])]
+        parts = slice(0, jump.sample), slice(jump.sample, len(signal.time))
         first, last = (
             fit(recording.time[part], recording.acceleration[:, part], fitted.frequency, fitted.orders)
             for part in parts
@@ -300,11 +304,9 @@ def sensor_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 def mixture_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """Lines of two sensors in any order."""
     recording, fitted = signal.recording, signal.fitted
-    # Lost samples and steps of the converter make patterns, too.
-    if (fitted.residual**2).mean() < recording.quanta.max() ** 2 or next(sampling_faults(signal), None):
+    if (fitted.residual**2).mean() < recording.quanta.max() ** 2:  # steps of the converter make patterns, too
         return
-    count = fitted.residual.shape[1]
-    if difference := mixture_of(recording.time[:count], recording.acceleration[:, :count], fitted):
+    if difference := mixture_of(signal.time, recording.acceleration[:, : len(signal.time)], fitted):
         yield (
             None,
             f"mixes lines with amplitudes that differ by {100.0 * difference:.2g} %, as two sensors in one file do; "
@@ -315,8 +317,6 @@ def mixture_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 def saturation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """Peaks that are cut off, behind which there is noise."""
     recording, fitted = signal.recording, signal.fitted
-    if next(sampling_faults(signal), None):
-        return
     phases = np.sort(np.mod((recording.time - fitted.middle) * fitted.frequency, 1.0))
     gap = max(float(np.diff(phases).max()), 1.0 + phases[0] - phases[-1])
     for key, readings in zip(recording.columns, recording.readings, strict=True):
@@ -353,9 +353,7 @@ def ambiguity_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 def steadiness_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """An amplitude that changes, or a second vibration."""
     frequency, other = signal.fitted.frequency, signal.other
-    if next(sampling_faults(signal), None):
-        return
-    steady = steadiness(signal.recording.time[: signal.fitted.residual.shape[1]], signal.fitted)
+    steady = steadiness(signal.time, signal.fitted)
     if (deviation := steady["deviation"]) > max(UNSTEADY, 3.0 * steady["deviation_of_noise"]):
         yield (
             None,
@@ -456,9 +454,10 @@ OF_TIMES = ((time_faults, interpolation_faults), (gap_faults,))
 OF_SIGNAL = (
     (count_faults,),
     (sensor_faults,),
+    (frequency_faults, sampling_faults),
     (saturation_faults,),
     (mixture_faults,),
-    (frequency_faults, sampling_faults, unit_faults, steadiness_faults),
+    (unit_faults, steadiness_faults),
     (ambiguity_faults,),
     (share_faults,),
 )

@@ -53,8 +53,8 @@ class Gravity(NamedTuple):
 NO_GRAVITY = Gravity(False, 1.0, 0.0, 0.0)
 
 
-def wrap(angle: float) -> float:
-    """An angle in (-π, π]."""
+def wrap(angle: Any) -> Any:
+    """Angles in (-π, π]."""
     return math.pi - (math.pi - angle) % (2.0 * math.pi)
 
 

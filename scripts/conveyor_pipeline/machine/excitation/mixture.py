@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 
-from conveyor_pipeline.machine.excitation.harmonics import Fit, design_of
+from conveyor_pipeline.machine.excitation.harmonics import Fit, design_of, project
 
 ROUNDS = 8
 # Two sensors leave at most this share of what one fit leaves; two fits of one noise leave 68 %, of a sine 19 %.
 LEFT = 0.15
+USUAL = 0.99  # share of the lines that are no spikes
 LEAST_LINES = 0.1  # share of the lines of the second sensor
 LEAST_TURNS = 0.02  # changes from one sensor to the other per clear line: drives do not change at once and often
 
@@ -32,8 +33,13 @@ def mixture_of(time: np.ndarray, signals: np.ndarray, fitted: Fit) -> float | No
     # Where the signal is small, both fits are equally near.
     is_clear = np.abs(errors[1] - errors[0]) > np.median(np.abs(errors[1] - errors[0]))
     turns = np.diff(is_second[is_clear]).mean()
-    # The median heeds no spikes.
-    if np.median(errors.min(axis=0)) > LEFT * np.median((fitted.residual**2).sum(axis=0)) or turns < LEAST_TURNS:
+    sizes = (fitted.residual**2).sum(axis=0)
+    is_usual = sizes <= np.quantile(sizes, USUAL)
+    if errors.min(axis=0)[is_usual].sum() > LEFT * sizes[is_usual].sum() or turns < LEAST_TURNS:
+        return None
+    # Every second cycle may be another one.
+    halves = project(centred, fitted.residual, 0.5 * fitted.frequency, 2 * fitted.orders)[1]
+    if (halves**2).sum() < 0.5 * sizes.sum():
         return None
     first, second = (np.hypot(one[2], one[2 + fitted.orders]) for one in both)
     return float(np.abs(second / first - 1.0).max())

@@ -142,13 +142,6 @@ def losses_of(time: np.ndarray, fitted: Fit, found: Modulation) -> Losses:
     return Losses(lost, lost * lines / float(chdtri(lines, 0.95)), bool(is_sure))
 
 
-def evidence_limit(chance: float) -> float:
-    """The evidence of a jump that noise alone exceeds anywhere in a recording with this probability."""
-    from scipy.special import chdtri
-
-    return float(chdtri(1.0, chance / PLACES))
-
-
 class Jump(NamedTuple):
     """The jump of the drive's phase or amplitude that explains most of a residual."""
 
@@ -159,8 +152,10 @@ class Jump(NamedTuple):
     is_alone: bool  # whether hardly any slow change remains without it
 
     def is_found(self, chance: float) -> bool:
-        """Whether noise alone would look like it with less than this probability."""
-        return self.evidence > evidence_limit(chance)
+        """Whether noise alone would look like it, anywhere in the recording, with less than this probability."""
+        from scipy.special import chdtri
+
+        return self.evidence > float(chdtri(1.0, chance / PLACES))
 
     @property
     def shift(self) -> float:
