@@ -67,7 +67,7 @@ CHANCE_OF_FLAT = 0.01  # that the flattest wave looks cut off
 LINES, STRAIGHT, PIECES = 0.1, 3.0, 8
 # Strips at the extreme, in halves of the span of the values; ratio of the first to the second; and how many times the
 # largest gap between phases, and the largest step, the first must be.
-HALVINGS, STEEP, GAPS = (5, 13), 8.0, 3.0
+HALVINGS, STEEP, GAPS = (5, 13), 8.0, 4.0
 
 
 def first_clipped(values: np.ndarray, quantum: float) -> int | None:
