@@ -4,7 +4,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from .parameters import PARAMETERS, RANGES, TENSION_MODES, UNITS
+from .parameters import PARAMETERS, RANGES, TENSION_MODES, UNITS, check_number
 
 MOST_VALUES = 10**8  # values in one array, or in the product of several
 MOST_THREADS = 1024
@@ -46,17 +46,6 @@ def is_real(value: object) -> bool:
     """Whether `value` is a real number. To NumPy, a timedelta64 is an integer."""
     is_number = isinstance(value, (int, float, np.integer, np.floating))
     return is_number and not isinstance(value, (bool, np.timedelta64))
-
-
-def check_number(name: str, value: object, low: float, high: float, unit: str = "", *, above: bool = False) -> float:
-    """`value` as a float; it must lie in [low, high], or in (low, high] where it has to lie `above` the lower end.
-
-    ValueError names the argument, its unit and its interval.
-    """
-    if not (is_real(value) and low <= value <= high) or (above and value == low):
-        interval = f"{'(' if above else '['}{low:g}, {high:g}] {unit}".rstrip()
-        raise ValueError(f"{name} = {value!r} must be a number in {interval}")
-    return float(value)
 
 
 def check_count(name: str, value: object, low: int, high: int) -> int:

@@ -6,26 +6,17 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arguments import (
-    LONGEST,
-    PACKED,
-    check_array,
-    check_choice,
-    check_count,
-    check_flag,
-    check_threads,
-    check_tolerance,
-)
+from . import arguments
 from .columns import Columns
 from .methods import fixed_step
 from .packing import check_column, check_rows, copy_table
 from .parallel import for_each_chunk
 from .parameters import RANGES
-from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, check_run
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, check_run, follow_by_events, follow_by_steps
 from .solver import record, trajectory
 from .solver.arrivals import CYCLES, EVERY_CYCLE, ON_TRACK, SHARE
 from .solver.model import Conveyor
-from .solver.record import SAMPLES, VX, VZ, X, Z
+from .solver.record import SAMPLES, X
 from .solver.status import NOT_FINITE, OK, STATUS
 
 NEEDS = ("feeding", "vertical")
@@ -34,33 +25,6 @@ COLUMNS = (
     *("mean_velocity", "z_end", "vz_end", "x_end", "vx_end", "max_gap", "impacts", "contact_fraction"),
     *("impact_speed", "peak_force"),
 )
-
-
-def follow_by_events(parameters, durations, tolerance, feeding):
-    """The columns of `sweep`, each of shape (n,), for `parameters`, shape (n, 16), and `durations` (s), by events."""
-    times = np.column_stack([(1.0 - LAST) * durations, durations])
-    samples, results = trajectory.integrate(parameters, times, tolerance=tolerance, feeding=feeding)
-    before, after = samples[:, 0], samples[:, 1]
-    return {
-        "mean_velocity": (after[:, X] - before[:, X]) / (LAST * durations),
-        "x_end": after[:, X],
-        "vx_end": after[:, VX],
-        "z_end": after[:, Z],
-        "vz_end": after[:, VZ],
-        "max_gap": results[:, record.MAX_GAP],
-        "impacts": results[:, record.IMPACTS],
-        "contact_fraction": results[:, record.CONTACT_TIME] / durations,
-        "impact_speed": results[:, record.IMPACT_SPEED],
-        "peak_force": results[:, record.PEAK_FORCE],
-        "status": results[:, record.CODE],
-    }
-
-
-def follow_by_steps(parameters, duration, step, method, feeding):
-    """The columns of `sweep`, each of shape (n,), for `parameters`, shape (n, 16), with a fixed-step method."""
-    columns = fixed_step.run(parameters, duration, step, method)
-    del columns["evaluations"]
-    return columns if feeding else columns | dict.fromkeys(HORIZONTAL, np.nan)
 
 
 def sweep(
@@ -102,11 +66,11 @@ def sweep(
     >>> bool(runs.mean_velocity[1, 1] > runs.mean_velocity[1, 0])  # at 40 m/s² a part that jumps is faster
     True
     """
-    check_choice("needs", needs, NEEDS)
-    threads = check_threads(threads)
-    check_count("chunk", chunk, 1, 10**9)
-    durations = check_array("duration", duration, np.finfo(np.float64).tiny, LONGEST, "s", least=0)
-    _, tolerance, step = check_run(durations.max() if durations.size else LONGEST, method, tolerance, step)
+    arguments.check_choice("needs", needs, NEEDS)
+    threads = arguments.check_threads(threads)
+    arguments.check_count("chunk", chunk, 1, 10**9)
+    durations = arguments.check_array("duration", duration, np.finfo(np.float64).tiny, arguments.LONGEST, "s", least=0)
+    _, tolerance, step = check_run(durations.max() if durations.size else arguments.LONGEST, method, tolerance, step)
     if method != "event" and durations.ndim > 0:
         raise ValueError("duration: only the event-driven method takes one for each row")
     rows, shape = check_rows(parameters)
@@ -121,9 +85,9 @@ def sweep(
         if method == "event":
             some = follow_by_events(rows[part], durations[part], tolerance, feeding)
         else:
-            some = follow_by_steps(rows[part], durations[begin], step, method, feeding)
-        for name, values in some.items():
-            columns[name][part] = values
+            some = follow_by_steps(rows[part], durations[begin], step, method)
+        for name in columns:
+            columns[name][part] = some[name] if feeding or name not in HORIZONTAL else np.nan
         return np.count_nonzero(columns["status"][part] != OK)
 
     for_each_chunk(work, len(rows), threads=threads, chunk=chunk, progress=progress)
@@ -175,7 +139,8 @@ def sample_runs(
     >>> sample_runs(parameters, np.array([[0.0, 0.5], [0.0, 0.7]]), columns=["x"]).x.shape
     (2, 2)
     """
-    (rows, _), times = check_rows(parameters), check_array("times", times, 0.0, LONGEST, "s", least=0)
+    rows, _ = check_rows(parameters)
+    times = arguments.check_array("times", times, 0.0, arguments.LONGEST, "s", least=0)
     if times.ndim != 2 or len(times) != len(rows):
         raise ValueError(f"times must have the shape ({len(rows)}, k), as parameters, got {times.shape}")
     if (np.diff(times) < 0.0).any():
@@ -183,18 +148,15 @@ def sample_runs(
     if not isinstance(columns, (list, tuple)):
         raise TypeError(f"columns = {columns!r} must be a list of some of {', '.join(SAMPLES)}")
     for name in columns:
-        check_choice("columns", name, SAMPLES)
+        arguments.check_choice("columns", name, SAMPLES)
     _, tolerance, step = check_run(times.max(initial=np.finfo(np.float64).tiny), method, tolerance, step)
-    check_flag("reuse", reuse)
-    check_flag("skip", skip)
-    threads = check_threads(threads)
-    check_count("chunk", chunk, 1, 10**9)
-    vx0 = check_array("vx0", vx0, *RANGES["vz0"], "m/s", least=0, may_be_nan=True)
-    if vx0.shape not in ((), (len(rows),)):
-        raise ValueError(f"vx0 has the shape {vx0.shape}, but there are {len(rows)} parts")
+    arguments.check_flag("reuse", reuse)
+    arguments.check_flag("skip", skip)
+    threads = arguments.check_threads(threads)
+    arguments.check_count("chunk", chunk, 1, 10**9)
+    vx0 = check_column("vx0", vx0, rows.shape[:1], *RANGES["vz0"], may_be_nan=True, unit="m/s").copy()
     if method != "event" and vx0.any():
         raise ValueError(f"vx0: the method {method} begins at rest; use the method event")
-    vx0 = np.full(len(rows), vx0)
     samples = {name: np.empty(times.shape) for name in columns}
     peaks, codes = np.full((2, len(rows)), np.nan), np.zeros(len(rows), np.int64)
     feeding = not {"x", "vx", "friction_force"}.isdisjoint(columns)
@@ -242,10 +204,10 @@ def restart(parameters: Conveyor | np.ndarray, z_end: ArrayLike, vz_end: ArrayLi
     [0.0, 0.0]
     """
     later = copy_table(parameters)
-    cycles = later["frequency"] * check_column("duration", duration, later.shape, 0.0, LONGEST)
+    cycles = later["frequency"] * check_column("duration", duration, later.shape, 0.0, arguments.LONGEST)
     later["psi0"] = (later["psi0"] + 2.0 * math.pi * (cycles - np.floor(cycles))) % (2.0 * math.pi)
     for name, of_end, ends in (("z0", "z_end", z_end), ("vz0", "vz_end", vz_end)):
-        later[name] = check_column(of_end, ends, later.shape, *PACKED[name], may_be_nan=True)
+        later[name] = check_column(of_end, ends, later.shape, *arguments.PACKED[name], may_be_nan=True)
     return later
 
 
@@ -282,18 +244,16 @@ def transits(
     >>> transits(parameters, np.array([0.02]), np.array([1.0]), begin=np.array(0.2)).arrival[:, 0].round(1)  # s
     array([nan, 0.3])
     """
-    lengths = check_array("lengths", lengths, np.finfo(np.float64).tiny, np.inf, "m")
-    longest = check_array("longest", longest, np.finfo(np.float64).tiny, LONGEST, "s")
+    lengths = arguments.check_array("lengths", lengths, np.finfo(np.float64).tiny, np.inf, "m")
+    longest = arguments.check_array("longest", longest, np.finfo(np.float64).tiny, arguments.LONGEST, "s")
     if lengths.ndim != 1 or lengths.shape != longest.shape:
         raise ValueError(f"longest has the shape {longest.shape}, but lengths has the shape {lengths.shape}")
     for name, values in (("lengths", lengths), ("longest", longest)):
         if (np.diff(values) <= 0.0).any():
             raise ValueError(f"{name} must ascend")
-    (parameters, _), threads, tolerance = check_rows(parameters), check_threads(threads), check_tolerance(tolerance)
-    begin = check_array("begin", begin, 0.0, longest[0], "s", least=0)
-    if begin.ndim > 0 and begin.shape != (len(parameters),):
-        raise ValueError(f"begin has the shape {begin.shape}, but there are {len(parameters)} parts")
-    begin = np.full(len(parameters), begin)
+    parameters, _ = check_rows(parameters)
+    threads, tolerance = arguments.check_threads(threads), arguments.check_tolerance(tolerance)
+    begin = check_column("begin", begin, parameters.shape[:1], 0.0, longest[0], unit="s").copy()
     times = np.column_stack([begin, np.tile(longest, (len(parameters), 1))])
     arrival, travelled = np.empty((2, len(parameters), len(lengths)))
     peaks, codes = np.empty((len(parameters), 2)), np.empty(len(parameters), dtype=np.int64)

@@ -17,7 +17,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from .parameters import RANGES, TENSION_MODES, check_above_zero, normal_gravity
+from .parameters import RANGES, TENSION_MODES, check_number, normal_gravity
 from .solver.law import spring_and_damper
 
 TOLERANCE = 1e-12  # of a step, in the units above
@@ -45,8 +45,8 @@ def restitution(conveyor: Any, speed: float) -> float:
     >>> round(restitution(Conveyor(), 0.35), 3), round(restitution(Conveyor(), 0.1), 3)
     (0.752, 0.676)
     """
-    model, speed = contact_of(conveyor), check_above_zero("speed", speed, FASTEST, "m/s")
-    damping, gravity = groups(model, speed)
+    model = contact_of(conveyor)
+    damping, gravity, speed = groups(model, speed)
     return rebound(model["exponent"], model["damping"] / damping, gravity, model["tension"] == "clip")
 
 
@@ -72,9 +72,8 @@ def damping_of(restitution: float, speed: float, conveyor: Any) -> float:
     >>> round(damping, 3), round(restitution(Conveyor(mass=0.8e-3, damping=damping), 0.63), 9)
     (0.847, 0.5)
     """
-    wanted, speed = check_above_zero("restitution", restitution, 1.0), check_above_zero("speed", speed, FASTEST, "m/s")
-    model = contact_of(conveyor)
-    unit, gravity = groups(model, speed)
+    wanted, model = check_number("restitution", restitution, 0.0, 1.0, above=True), contact_of(conveyor)
+    unit, gravity, speed = groups(model, speed)
 
     def excess(damping: float) -> float:
         return rebound(model["exponent"], damping, gravity, model["tension"] == "clip") - wanted
@@ -101,12 +100,11 @@ def contact_of(conveyor: Any) -> dict[str, Any]:
     return {name: getattr(conveyor, name) for name in (*CONTACT, "tension")}
 
 
-def groups(model: dict[str, Any], speed: float) -> tuple[float, float]:
-    """The damping with D = 1 (N s/m), and the group G of an impact at a speed (m/s), see above."""
-    if speed < SLOWEST:
-        raise ValueError(f"speed = {speed!r} must be at least {SLOWEST:g} m/s")
+def groups(model: dict[str, Any], speed: object) -> tuple[float, float, float]:
+    """The damping with D = 1 (N s/m), the group G of an impact at a speed (m/s), see above, and the checked speed."""
+    speed = check_number("speed", speed, SLOWEST, FASTEST, "m/s")
     length = (model["mass"] * speed**2 / model["stiffness"]) ** (1.0 / (model["exponent"] + 1.0))
-    return model["mass"] * speed / length, normal_gravity(model) * length / speed**2
+    return model["mass"] * speed / length, normal_gravity(model) * length / speed**2, speed
 
 
 def root(function: Callable[[float], float], low: float, high: float) -> float:

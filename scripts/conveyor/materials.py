@@ -22,7 +22,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .parameters import RANGES, check_above_zero
+from .parameters import RANGES, check_number
 
 ELASTOMERS = ("rubber", "polyurethane")
 HARDNESS = {"A": (20, 95), "D": (30, 75)}
@@ -136,7 +136,7 @@ def hertz_stiffness(part: Any, lining: Any, radius: float) -> float:
     >>> round(hertz_stiffness((210e9, 0.3), (13e6, 0.5), 1.5e-3) / 1e3)
     895
     """
-    radius = check_above_zero("radius", radius, LARGEST_RADIUS, "m")
+    radius = check_number("radius", radius, 0.0, LARGEST_RADIUS, "m", above=True)
     pairs = [constants_of(name, given) for name, given in (("part", part), ("lining", lining))]
     compliance = sum((1.0 - poisson**2) / modulus for modulus, poisson in pairs)
     stiffness = 4.0 / 3.0 * math.sqrt(radius) / compliance

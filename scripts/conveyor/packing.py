@@ -9,41 +9,13 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arguments import (
-    HIGH,
-    LOW,
-    MAY_BE_NAN,
-    PACKED,
-    STATES,
-    check_array,
-    check_choice,
-    check_numbers,
-    check_parameters,
-    check_type,
-)
+from . import arguments
 from .columns import Columns
 from .elementary import cos, sin
 from .parameters import DEFAULT_TOLERANCE, HARMONIC, PARAMETERS, RANGES, TENSION_MODES, UNITS
-from .solver import contact, plate
+from .solver import contact, model, plate
 from .solver.jit import compiled
-from .solver.model import (
-    ACCELERATION,
-    ANGLE,
-    FREQUENCY,
-    FRICTION,
-    GRAVITY,
-    MASS,
-    PHASE_SHIFT,
-    STATIC_FRICTION,
-    TENSION,
-    VZ0,
-    Z0,
-    Conveyor,
-    Start,
-    check_static_friction,
-    pack,
-    unpack,
-)
+from .solver.model import Conveyor, Start, check_static_friction, pack, unpack
 
 # The initial condition; ψ0 only shifts the phase at which a motion is observed.
 INITIAL_CONDITION = ("psi0", "z0", "vz0")
@@ -52,8 +24,8 @@ AT_REST = Start()
 _, _, (SMALLEST_ORDER, LARGEST_ORDER) = HARMONIC["order"]
 LARGEST_SHARE = HARMONIC["normal"][2][1]
 ENDS = (
-    (LOW, [SMALLEST_ORDER, *[-LARGEST_SHARE] * (len(HARMONIC) - 1)]),
-    (HIGH, [LARGEST_ORDER, *[LARGEST_SHARE] * (len(HARMONIC) - 1)]),
+    (arguments.LOW, [SMALLEST_ORDER, *[-LARGEST_SHARE] * (len(HARMONIC) - 1)]),
+    (arguments.HIGH, [LARGEST_ORDER, *[LARGEST_SHARE] * (len(HARMONIC) - 1)]),
 )
 
 
@@ -80,9 +52,9 @@ def parameter_table(conveyor: Conveyor, start: Start = AT_REST, **values: ArrayL
     >>> parameters["acceleration"][:, 0].tolist(), parameters["frequency"][1, 1].item()  # m/s², Hz
     ([20.0, 40.0], 50.0)
     """
-    check_type("conveyor", conveyor, Conveyor)
-    check_type("start", start, Start)
-    arrays = check_parameters(values)
+    arguments.check_type("conveyor", conveyor, Conveyor)
+    arguments.check_type("start", start, Start)
+    arrays = arguments.check_parameters(values)
     shape = next(iter(arrays.values())).shape if arrays else ()
     table = np.full(shape, as_table(pack(conveyor, start)))
     if conveyor.static_friction is not None:
@@ -108,7 +80,8 @@ def replace_parameters(parameters: Conveyor | np.ndarray, **values: ArrayLike) -
             column = np.vectorize(tension_code, otypes=[np.float64])(column)
         elif name not in RANGES:
             raise TypeError(f"{name} is not one of {', '.join(PARAMETERS)}")
-        table[name] = check_column(name, column, table.shape, *PACKED[name], may_be_nan=name in STATES)
+        options = {"may_be_nan": name in arguments.STATES, "unit": UNITS[name]}
+        table[name] = check_column(name, column, table.shape, *arguments.PACKED[name], **options)
     if "friction" in values and "static_friction" not in values:
         table["static_friction"] = table["friction"]
     for row in table[table["static_friction"] < table["friction"]].flat[:1]:
@@ -138,10 +111,17 @@ def copy_table(parameters: object) -> np.ndarray:
 
 
 def check_column(
-    name: str, values: object, shape: tuple[int, ...], low: float, high: float, *, may_be_nan: bool = False
+    name: str,
+    values: object,
+    shape: tuple[int, ...],
+    low: float,
+    high: float,
+    *,
+    may_be_nan: bool = False,
+    unit: str = "",
 ) -> np.ndarray:
     """`values` in the shape of a table; ValueError for another shape, or a number outside [low, high]."""
-    column = check_array(name, values, low, high, UNITS.get(name, ""), least=0, may_be_nan=may_be_nan)
+    column = arguments.check_array(name, values, low, high, unit, least=0, may_be_nan=may_be_nan)
     try:
         return np.broadcast_to(column, shape)
     except ValueError:
@@ -150,7 +130,7 @@ def check_column(
 
 def tension_code(word: str) -> int:
     """The position of a word in TENSION_MODES; ValueError for an unknown one."""
-    return TENSION_MODES.index(check_choice("tension", word, TENSION_MODES))
+    return TENSION_MODES.index(arguments.check_choice("tension", word, TENSION_MODES))
 
 
 def as_rows(parameters: np.ndarray) -> np.ndarray:
@@ -184,7 +164,7 @@ def check_rows(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
     """
     if isinstance(parameters, Conveyor):
         parameters = pack(parameters, AT_REST)
-    rows = check_numbers("parameters", as_rows(parameters))
+    rows = arguments.check_numbers("parameters", as_rows(parameters))
     waves = rows.shape[-1] - len(PARAMETERS) if rows.ndim > 0 else -1
     if waves < 0 or waves % len(HARMONIC) != 0:
         raise ValueError(f"parameters must be a table from parameter_table, got the shape {rows.shape}")
@@ -193,16 +173,16 @@ def check_rows(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
     rows = np.require(rows, np.float64, ["C", "W"]).reshape(-1, rows.shape[-1])
     low, high = (np.append(ends, np.tile(of_wave, waves // len(HARMONIC))) for ends, of_wave in ENDS)
     outside = ~((rows >= low) & (rows <= high))
-    outside[:, : len(PARAMETERS)] &= ~(MAY_BE_NAN & np.isnan(rows[:, : len(PARAMETERS)]))
+    outside[:, : len(PARAMETERS)] &= ~(arguments.MAY_BE_NAN & np.isnan(rows[:, : len(PARAMETERS)]))
     for row, column in np.argwhere(outside)[:1]:
         name = PARAMETERS[column] if column < len(PARAMETERS) else "harmonics"
         interval = f"[{low[column]:g}, {high[column]:g}] {UNITS.get(name, '')}".rstrip()
         raise ValueError(f"{place_of(row, shape)}: {name} = {rows[row, column]!s} is outside {interval}")
-    fractions = np.argwhere(rows[:, TENSION] % 1.0)
-    for row in fractions[:1, 0]:
-        raise ValueError(f"{place_of(row, shape)}: tension = {rows[row, TENSION]!s} is no position in TENSION_MODES")
-    for row in np.flatnonzero(rows[:, STATIC_FRICTION] < rows[:, FRICTION])[:1]:
-        coefficients = f"static_friction = {rows[row, STATIC_FRICTION]!s} is below friction = {rows[row, FRICTION]!s}"
+    tension, friction, static_friction = rows[:, [model.TENSION, model.FRICTION, model.STATIC_FRICTION]].T
+    for row in np.flatnonzero(tension % 1.0)[:1]:
+        raise ValueError(f"{place_of(row, shape)}: tension = {tension[row]!s} is no position in TENSION_MODES")
+    for row in np.flatnonzero(static_friction < friction)[:1]:
+        coefficients = f"static_friction = {static_friction[row]!s} is below friction = {friction[row]!s}"
         raise ValueError(f"{place_of(row, shape)}: {coefficients}")
     return rows, shape
 
@@ -213,7 +193,7 @@ def check_row(name: str, conveyor: object, start: Start = AT_REST) -> np.ndarray
     A row has an initial condition of its own, which a start other than AT_REST replaces. The error for anything else
     has the `name` of the argument.
     """
-    check_type("start", start, Start)
+    arguments.check_type("start", start, Start)
     if isinstance(conveyor, Conveyor):
         return pack(conveyor, start)
     if not isinstance(conveyor, (np.ndarray, np.void)):
@@ -226,7 +206,7 @@ def check_row(name: str, conveyor: object, start: Start = AT_REST) -> np.ndarray
         raise ValueError(f"{name} must be one row of a table, got the shape {shape}")
     row = np.array(rows[0])
     if start != AT_REST:
-        row[[Z0, VZ0]] = pack(Conveyor(), start)[[Z0, VZ0]]
+        row[[model.Z0, model.VZ0]] = pack(Conveyor(), start)[[model.Z0, model.VZ0]]
     return row
 
 
@@ -234,15 +214,15 @@ def conveyor_of(conveyor: object, start: Start) -> tuple[Conveyor, Start]:
     """A Conveyor and its start, or those of a row of a table, see `check_row`."""
     if not isinstance(conveyor, Conveyor):
         return unpack(check_row("conveyor", conveyor, start))
-    check_type("start", start, Start)
+    arguments.check_type("start", start, Start)
     return conveyor, start
 
 
 def one_row(conveyor: object) -> np.ndarray:
     """The numbers of a Conveyor, or of a row of a table; the ranges of packed numbers are not checked again."""
     if isinstance(conveyor, np.ndarray) and conveyor.dtype == np.float64 and conveyor.ndim == 1:
-        numbers = conveyor[:TENSION]
-        if len(numbers) == TENSION and np.isfinite(numbers).all() and (numbers[[FREQUENCY, MASS, GRAVITY]] > 0.0).all():
+        numbers, positive = conveyor[: model.TENSION], [model.FREQUENCY, model.MASS, model.GRAVITY]
+        if len(numbers) == model.TENSION and np.isfinite(numbers).all() and (numbers[positive] > 0.0).all():
             return conveyor
     return check_row("conveyor", conveyor)
 
@@ -282,11 +262,12 @@ def plate_peaks(parameters: np.ndarray) -> Columns:
     """
     rows = as_rows(parameters)
     plates, plate_of = np.unique(
-        rows[:, [PHASE_SHIFT, *range(len(PARAMETERS), rows.shape[1])]], axis=0, return_inverse=True
+        rows[:, [model.PHASE_SHIFT, *range(len(PARAMETERS), rows.shape[1])]], axis=0, return_inverse=True
     )
-    shares = np.array([plate.peaks(waves, shift) for shift, *waves in plates]).reshape(-1, len(plate.Peaks._fields))
+    shares = np.array([plate.peaks(one[1:], one[0]) for one in plates]).reshape(-1, len(plate.Peaks._fields))
     shares = plate.Peaks(*shares[plate_of].T)
-    acceleration, angle, omega = rows[:, ACCELERATION], rows[:, ANGLE], 2.0 * math.pi * rows[:, FREQUENCY]
+    acceleration, angle, frequency = rows[:, [model.ACCELERATION, model.ANGLE, model.FREQUENCY]].T
+    omega = 2.0 * math.pi * frequency
     along, normal = cos(angle) ** 2, sin(angle) ** 2
 
     def combine(share_along: np.ndarray, share_normal: np.ndarray) -> np.ndarray:

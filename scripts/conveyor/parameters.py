@@ -86,19 +86,24 @@ def normal_gravity(model: Mapping[str, float]) -> float:
 FIXED_STEP_METHODS = ("euler", "semi_implicit_euler", "rk4")
 
 
-def check_above_zero(name: str, value: object, high: float, unit: str = "") -> float:
-    """`value` as a float; ValueError unless it is a number in (0, high]. As arguments.check_number, without NumPy.
+def check_number(name: str, value: object, low: float, high: float, unit: str = "", *, above: bool = False) -> float:
+    """`value` as a float; it must lie in [low, high], or in (low, high] where it has to lie `above` the lower end.
+
+    ValueError names the argument, its unit and its interval.
 
     Examples
     --------
-    >>> check_above_zero("radius", 2, 10.0, "m")
+    >>> check_number("radius", 2, 0.0, 10.0, "m", above=True)
     2.0
     """
+    # A truth value and, to NumPy, a time span (of the kind "m") are whole numbers.
+    is_number = isinstance(value, Real) and not isinstance(value, bool)
+    is_number = is_number and getattr(getattr(value, "dtype", None), "kind", "") != "m"
     try:
-        # A truth value and, to NumPy, a time span are whole numbers.
-        number = float(value) if isinstance(value, Real) and not isinstance(value, bool) else math.nan
-    except (TypeError, OverflowError):
+        number = float(value) if is_number else math.nan
+    except OverflowError:
         number = math.nan
-    if not 0.0 < number <= high:
-        raise ValueError(f"{name} = {value!r} must be a number in (0, {high:g}] {unit}".rstrip())
+    if not low <= number <= high or (above and number == low):
+        interval = f"{'(' if above else '['}{low:g}, {high:g}] {unit}".rstrip()
+        raise ValueError(f"{name} = {value!r} must be a number in {interval}")
     return number

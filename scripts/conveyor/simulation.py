@@ -11,7 +11,7 @@ from .arguments import check_array, check_choice, check_flag, check_number, chec
 from .methods import fixed_step
 from .packing import AT_REST, conveyor_of
 from .parameters import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST
-from .solver import trajectory
+from .solver import record, trajectory
 from .solver.model import Conveyor, Start, pack, plate_motion
 from .solver.record import SAMPLES, name_events
 from .solver.status import OK, STATUS
@@ -141,6 +141,45 @@ def check_run(duration: float, method: str, tolerance: float, step: float) -> tu
     return duration, tolerance, step
 
 
+def follow_by_events(
+    parameters: np.ndarray, durations: np.ndarray, tolerance: float, feeding: bool, reuse: bool = True
+) -> dict[str, np.ndarray]:
+    """The results of runs by events, each of shape (n,), for `parameters`, shape (n, 16), and `durations` (s).
+
+    They are the columns of `ensemble.sweep`, and those that only a Run has.
+    """
+    times = np.column_stack([(1.0 - LAST) * durations, durations])
+    samples, results = trajectory.integrate(parameters, times, tolerance=tolerance, feeding=feeding, reuse=reuse)
+    before, after = samples[:, 0], samples[:, 1]
+    with np.errstate(invalid="ignore"):  # a quarter of the shortest duration is no number above 0
+        velocity = (after[:, record.X] - before[:, record.X]) / (LAST * durations)
+    return {
+        "mean_velocity": velocity,
+        "x_last": before[:, record.X],
+        "x_end": after[:, record.X],
+        "vx_end": after[:, record.VX],
+        "z_end": after[:, record.Z],
+        "vz_end": after[:, record.VZ],
+        "max_gap": results[:, record.MAX_GAP],
+        "impacts": results[:, record.IMPACTS],
+        "contact_fraction": results[:, record.CONTACT_TIME] / durations,
+        "impact_speed": results[:, record.IMPACT_SPEED],
+        "peak_force": results[:, record.PEAK_FORCE],
+        "status": results[:, record.CODE],
+        "work": results[:, record.STEPS],
+        "repeats": results[:, record.REPEATS],
+        "event_count": results[:, record.EVENTS],
+    }
+
+
+def follow_by_steps(parameters: np.ndarray, duration: float, step: float, method: str) -> dict[str, np.ndarray]:
+    """The same results by a fixed-step method; events are not counted, because a Run follows them again."""
+    columns = fixed_step.run(parameters, duration, step, method)
+    nothing = np.zeros(len(parameters))
+    columns |= {"work": columns.pop("evaluations"), "repeats": nothing, "event_count": nothing}
+    return columns | {"x_last": columns["x_end"] - columns["mean_velocity"] * LAST * duration}
+
+
 def simulate(
     conveyor: Conveyor | np.ndarray,
     start: Start = AT_REST,
@@ -182,44 +221,15 @@ def simulate(
     conveyor, start = conveyor_of(conveyor, start)
     duration, tolerance, step = check_run(duration, method, tolerance, step)
     check_flag("reuse", reuse)
-    parameters = pack(conveyor, start)
+    rows = pack(conveyor, start)[None]
     if method == "event":
-        times = np.array([[(1.0 - LAST) * duration, duration]])
-        (samples,), (results,) = trajectory.integrate(parameters[None], times, tolerance=tolerance, reuse=reuse)
-        code, event_count, impacts, contact_time, max_gap, work, repeats, impact_speed, peak_force, *_ = (
-            results.tolist()
-        )
-        (x_last, *_), (x_end, vx_end, z_end, vz_end, *_) = samples.tolist()
-        contact_fraction = contact_time / duration
+        columns = follow_by_events(rows, np.array([duration]), tolerance, True, reuse)
     else:
-        run = {name: column.item() for name, column in fixed_step.run(parameters[None], duration, step, method).items()}
-        x_end, vx_end, z_end, vz_end = run["x_end"], run["vx_end"], run["z_end"], run["vz_end"]
-        x_last = x_end - run["mean_velocity"] * LAST * duration
-        code, impacts, work, repeats, event_count = run["status"], run["impacts"], run["evaluations"], 0, 0
-        max_gap, contact_fraction = run["max_gap"], run["contact_fraction"]
-        impact_speed, peak_force = run["impact_speed"], run["peak_force"]
+        columns = follow_by_steps(rows, duration, step, method)
+    run = {name: column.item() for name, column in columns.items() if name != "mean_velocity"}
+    code = run.pop("status")
     if code != OK:
-        max_gap = contact_fraction = math.nan
-    return Run(
-        conveyor=conveyor,
-        start=start,
-        duration=duration,
-        method=method,
-        tolerance=tolerance,
-        step=step,
-        reuse=reuse,
-        status=STATUS[int(code)],
-        x_last=float(x_last),
-        z_end=float(z_end),
-        vz_end=float(vz_end),
-        x_end=float(x_end),
-        vx_end=float(vx_end),
-        impacts=int(impacts),
-        max_gap=float(max_gap),
-        contact_fraction=float(contact_fraction),
-        impact_speed=float(impact_speed),
-        peak_force=float(peak_force),
-        work=int(work),
-        repeats=int(repeats),
-        event_count=int(event_count),
-    )
+        run["max_gap"] = run["contact_fraction"] = math.nan
+    run |= {name: int(run[name]) for name in ("impacts", "work", "repeats", "event_count")}
+    options = {"method": method, "tolerance": tolerance, "step": step, "reuse": reuse}
+    return Run(conveyor=conveyor, start=start, duration=duration, status=STATUS[int(code)], **options, **run)

@@ -23,23 +23,8 @@ from ..parameters import LAST
 from ..solver.contact_lanes import new_memory
 from ..solver.record import SAMPLES, name_events
 from ..solver.status import OK
+from . import scheme
 from .fixed_step_lanes import FIRST_WAVE, compiled_for, kind_of
-from .scheme import (
-    CONTACT_TIME,
-    EVENTS,
-    FORCE_EVALUATIONS,
-    IMPACT_SPEED,
-    IMPACTS,
-    MAX_GAP,
-    PEAK_FORCE,
-    RESULTS,
-    STATUS,
-    VX,
-    VZ,
-    WAVES,
-    X,
-    Z,
-)
 
 # The factor of a step h on a decay exp(λt), as coefficients of the powers of hλ; None for a step without such a factor.
 GROWTH = {"euler": (1.0, 1.0), "semi_implicit_euler": None, "rk4": (1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0)}
@@ -85,10 +70,10 @@ def follow(parameters, step, n_steps, method, indices=(), n_events=0):
     check_choice("method", method, METHODS)
     parameters, indices = as_rows(parameters), np.asarray(indices, dtype=np.int64)
     n = len(parameters)
-    samples, results = np.full((n, len(indices), len(SAMPLES)), math.nan), np.empty((n, RESULTS))
+    samples, results = np.full((n, len(indices), len(SAMPLES)), math.nan), np.empty((n, scheme.RESULTS))
     events = np.full((n, n_events, 2), math.nan)
     integrate = compiled_for(kind_of(METHODS.index(method), parameters))
-    memory = new_memory(WAVES + parameters.shape[1] - FIRST_WAVE)
+    memory = new_memory(scheme.WAVES + parameters.shape[1] - FIRST_WAVE)
     stopped = np.zeros(1, dtype=np.bool_)
 
     def run_all():
@@ -119,20 +104,20 @@ def run(parameters: np.ndarray, duration: float, step: float, method: str = "eul
     n_steps = step_count(duration, step)
     first = min(round((1.0 - LAST) * n_steps), n_steps - 1)
     results, samples, _ = follow(parameters, step, n_steps, method, [first])
-    failed = results[:, STATUS] != OK
+    failed = results[:, scheme.STATUS] != OK
     return {
-        "mean_velocity": (results[:, X] - samples[:, 0, X]) / ((n_steps - first) * step),
-        "x_end": results[:, X],
-        "vx_end": results[:, VX],
-        "z_end": results[:, Z],
-        "vz_end": results[:, VZ],
-        "max_gap": results[:, MAX_GAP],
-        "impacts": results[:, IMPACTS],
-        "contact_fraction": results[:, CONTACT_TIME] / (n_steps * step),
-        "impact_speed": np.where(failed, math.nan, results[:, IMPACT_SPEED]),
-        "peak_force": np.where(failed, math.nan, results[:, PEAK_FORCE]),
-        "status": results[:, STATUS],
-        "evaluations": results[:, FORCE_EVALUATIONS],
+        "mean_velocity": (results[:, scheme.X] - samples[:, 0, scheme.X]) / ((n_steps - first) * step),
+        "x_end": results[:, scheme.X],
+        "vx_end": results[:, scheme.VX],
+        "z_end": results[:, scheme.Z],
+        "vz_end": results[:, scheme.VZ],
+        "max_gap": results[:, scheme.MAX_GAP],
+        "impacts": results[:, scheme.IMPACTS],
+        "contact_fraction": results[:, scheme.CONTACT_TIME] / (n_steps * step),
+        "impact_speed": np.where(failed, math.nan, results[:, scheme.IMPACT_SPEED]),
+        "peak_force": np.where(failed, math.nan, results[:, scheme.PEAK_FORCE]),
+        "status": results[:, scheme.STATUS],
+        "evaluations": results[:, scheme.FORCE_EVALUATIONS],
     }
 
 
@@ -157,7 +142,7 @@ def events(parameters: np.ndarray, duration: float, step: float, method: str = "
     """
     n_steps = step_count(duration, step)
     (results,), _, (rows,) = follow(parameters[np.newaxis], step, n_steps, method, n_events=LIKELY_EVENTS)
-    n_events = int(results[EVENTS])
+    n_events = int(results[scheme.EVENTS])
     if n_events > LIKELY_EVENTS:
         _, _, (rows,) = follow(parameters[np.newaxis], step, n_steps, method, n_events=n_events)
     return name_events(rows[:n_events, 0], rows[:n_events, 1].astype(np.int64))

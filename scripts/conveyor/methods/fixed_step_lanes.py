@@ -14,43 +14,10 @@ from ..solver import model, plate
 from ..solver.contact_lanes import LANES
 from ..solver.contact_law import coefficients_per_mass
 from ..solver.jit import compiled, compiled_inline
+from . import scheme
 from .force_law import least_push, least_rub
 from .recording import record_events, record_results, record_samples
-from .scheme import (
-    COS_SHIFT,
-    DAMPING,
-    DOWNHILL,
-    EULER,
-    EVALUATIONS,
-    EXPONENT,
-    FRICTION,
-    GAP,
-    GRAVITY,
-    IN_CONTACT,
-    LAST_SLIP,
-    LEAST_PUSH,
-    LEAST_RUB,
-    MAX_GAP,
-    OMEGA,
-    PLATE_AX,
-    PLATE_VX,
-    PLATE_VZ,
-    PLATE_Z,
-    PSI0,
-    SIN_SHIFT,
-    STATIC_FRICTION,
-    STIFFNESS,
-    VZ,
-    WAVES,
-    Kind,
-    Z,
-    count_step,
-    find_forces,
-    shapes_at,
-    take_step,
-    turn_plate,
-    written_shapes,
-)
+from .scheme import Kind, count_step, find_forces, shapes_at, take_step, turn_plate, written_shapes
 from .sine import sine_and_cosine
 
 FIRST_WAVE = len(PARAMETERS)  # place of the first harmonic in packed parameters
@@ -79,7 +46,7 @@ def take_steps(kind, lanes, memory, i, stop, step, plates):
     """
     changed = False
     while not changed and i != stop:
-        if kind.alike and kind.method == EULER:
+        if kind.alike and kind.method == scheme.EULER:
             end = written_shapes(plates, np.uint64(i % CHECK), np.uint64(CHECK))
             shapes = end, end, end
         elif kind.alike:
@@ -103,28 +70,28 @@ def prepare(kind, parameters, flat, memory, lane):
     ahead, straight = sine_and_cosine(parameters[model.PHASE_SHIFT])
     omega = 2.0 * math.pi * parameters[model.FREQUENCY]
     a_z, a_x = parameters[model.ACCELERATION] * sine_angle, parameters[model.ACCELERATION] * cosine_angle
-    memory[OMEGA, lane], memory[PSI0, lane] = omega, parameters[model.PSI0]
+    memory[scheme.OMEGA, lane], memory[scheme.PSI0, lane] = omega, parameters[model.PSI0]
     amplitudes = plate.amplitudes(a_x, a_z, omega)
-    memory[PLATE_Z, lane], memory[PLATE_VZ, lane] = amplitudes.z, amplitudes.vz
-    memory[PLATE_VX, lane], memory[PLATE_AX, lane] = amplitudes.vx, amplitudes.ax
-    memory[STIFFNESS, lane], memory[DAMPING, lane] = coefficients_per_mass(parameters)
-    memory[EXPONENT, lane] = parameters[model.EXPONENT]
-    memory[FRICTION, lane] = parameters[model.FRICTION]
-    memory[STATIC_FRICTION, lane] = parameters[model.STATIC_FRICTION]
-    memory[GRAVITY, lane] = parameters[model.GRAVITY] * cosine_track
-    memory[DOWNHILL, lane] = parameters[model.GRAVITY] * sine_track
-    memory[SIN_SHIFT, lane], memory[COS_SHIFT, lane] = ahead, straight
-    memory[LEAST_PUSH, lane] = least_push(parameters[model.TENSION])
-    memory[LEAST_RUB, lane] = least_rub(parameters[model.TENSION])
+    memory[scheme.PLATE_Z, lane], memory[scheme.PLATE_VZ, lane] = amplitudes.z, amplitudes.vz
+    memory[scheme.PLATE_VX, lane], memory[scheme.PLATE_AX, lane] = amplitudes.vx, amplitudes.ax
+    memory[scheme.STIFFNESS, lane], memory[scheme.DAMPING, lane] = coefficients_per_mass(parameters)
+    memory[scheme.EXPONENT, lane] = parameters[model.EXPONENT]
+    memory[scheme.FRICTION, lane] = parameters[model.FRICTION]
+    memory[scheme.STATIC_FRICTION, lane] = parameters[model.STATIC_FRICTION]
+    memory[scheme.GRAVITY, lane] = parameters[model.GRAVITY] * cosine_track
+    memory[scheme.DOWNHILL, lane] = parameters[model.GRAVITY] * sine_track
+    memory[scheme.SIN_SHIFT, lane], memory[scheme.COS_SHIFT, lane] = ahead, straight
+    memory[scheme.LEAST_PUSH, lane] = least_push(parameters[model.TENSION])
+    memory[scheme.LEAST_RUB, lane] = least_rub(parameters[model.TENSION])
     for k in range(len(parameters) - FIRST_WAVE):
-        memory[WAVES + k, lane] = parameters[FIRST_WAVE + k]
+        memory[scheme.WAVES + k, lane] = parameters[FIRST_WAVE + k]
     shapes = shapes_at(kind, flat, np.uint64(lane), parameters[model.PSI0])
-    memory[LAST_SLIP, lane] = memory[PLATE_VX, lane] * shapes.vx
-    surface = memory[PLATE_Z, lane] * shapes.z
-    memory[Z, lane] = surface if math.isnan(parameters[model.Z0]) else parameters[model.Z0]
-    memory[VZ, lane] = parameters[model.VZ0]
-    memory[MAX_GAP, lane] = memory[Z, lane] - surface
-    memory[IN_CONTACT, lane] = memory[MAX_GAP, lane] <= 0.0
+    memory[scheme.LAST_SLIP, lane] = memory[scheme.PLATE_VX, lane] * shapes.vx
+    surface = memory[scheme.PLATE_Z, lane] * shapes.z
+    memory[scheme.Z, lane] = surface if math.isnan(parameters[model.Z0]) else parameters[model.Z0]
+    memory[scheme.VZ, lane] = parameters[model.VZ0]
+    memory[scheme.MAX_GAP, lane] = memory[scheme.Z, lane] - surface
+    memory[scheme.IN_CONTACT, lane] = memory[scheme.MAX_GAP, lane] <= 0.0
     find_forces(kind, flat, np.uint64(lane), shapes)
 
 
@@ -144,7 +111,7 @@ def compiled_for(kind):
             for k in range(len(flat)):
                 flat[k] = 0.0
             for lane in range(lanes):
-                memory[Z, lane] = memory[GAP, lane] = 1.0
+                memory[scheme.Z, lane] = memory[scheme.GAP, lane] = 1.0
                 running[lane] = first + lane < len(parameters)
                 if running[lane]:
                     prepare(kind, parameters[first + lane], flat, memory, lane)
@@ -154,11 +121,11 @@ def compiled_for(kind):
                     record_samples(parameters, first, memory, running, samples, n_sampled)
                     n_sampled += 1
                 if i % CHECK == 0 or i == n_steps:
-                    evaluations = i * EVALUATIONS[method]
+                    evaluations = i * scheme.EVALUATIONS[method]
                     is_end = i == n_steps or stopped[0]
                     if record_results(parameters, first, memory, running, results, step, evaluations, is_end) == 0:
                         break
-                    if kind.alike and method == EULER:
+                    if kind.alike and method == scheme.EULER:
                         turn_plates(kind, flat, i, step, plates)
                 record_events(kind, first, flat, memory, running, events, i * step)
                 stop = min(n_steps, i - i % CHECK + CHECK)
@@ -176,7 +143,7 @@ def kind_of(method: int, parameters: np.ndarray) -> Kind:
     if (waves[:, plate.K :: plate.NUMBERS] != orders).any():
         raise ValueError("harmonics of conveyors that are followed together must have the same orders")
     rows = np.zeros(orders.max(initial=1) + 1, np.int64)
-    rows[orders] = WAVES + plate.NUMBERS * np.arange(len(orders))
+    rows[orders] = scheme.WAVES + plate.NUMBERS * np.arange(len(orders))
     plates = np.hstack([parameters[:, [model.FREQUENCY, model.PSI0, model.PHASE_SHIFT]], waves])
     return Kind(
         method,

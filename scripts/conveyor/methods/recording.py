@@ -8,25 +8,8 @@ from ..solver import model
 from ..solver.jit import compiled_inline
 from ..solver.record import IMPACT, SEPARATED
 from ..solver.status import NOT_FINITE, OK
-from .scheme import (
-    CONTACT_TIME,
-    EVENTS,
-    FORCE_EVALUATIONS,
-    GAP,
-    IMPACT_SPEED,
-    IMPACTS,
-    IN_CONTACT,
-    OMEGA,
-    PEAK_FORCE,
-    PLATE_VZ,
-    PSI0,
-    PUSH,
-    RESULTS,
-    RUB,
-    STATUS,
-    VZ,
-    shapes_at,
-)
+from . import scheme
+from .scheme import shapes_at
 
 
 @compiled_inline
@@ -40,9 +23,9 @@ def record_samples(parameters, first, memory, running, samples, number):
             mass, row = parameters[first + lane, model.MASS], samples[first + lane, number]
             for column in range(4):
                 row[column] = memory[column, lane]
-            row[4] = mass * memory[PUSH, lane]
-            row[5] = mass * memory[RUB, lane] + 0.0  # no negative zero
-        memory[IMPACT_SPEED, lane] = memory[PEAK_FORCE, lane] = 0.0
+            row[4] = mass * memory[scheme.PUSH, lane]
+            row[5] = mass * memory[scheme.RUB, lane] + 0.0  # no negative zero
+        memory[scheme.IMPACT_SPEED, lane] = memory[scheme.PEAK_FORCE, lane] = 0.0
 
 
 @compiled_inline
@@ -60,12 +43,12 @@ def record_results(parameters, first, memory, running, results, step, evaluation
         if running[lane] and (is_end or not finite):
             running[lane] = False
             row = results[first + lane]
-            for column in range(RESULTS):
+            for column in range(scheme.RESULTS):
                 row[column] = memory[column, lane]
-            row[CONTACT_TIME] *= step
-            row[PEAK_FORCE] *= parameters[first + lane, model.MASS]
-            row[FORCE_EVALUATIONS] = evaluations
-            row[STATUS] = OK if finite else NOT_FINITE
+            row[scheme.CONTACT_TIME] *= step
+            row[scheme.PEAK_FORCE] *= parameters[first + lane, model.MASS]
+            row[scheme.FORCE_EVALUATIONS] = evaluations
+            row[scheme.STATUS] = OK if finite else NOT_FINITE
         left += running[lane]
     return left
 
@@ -74,16 +57,17 @@ def record_results(parameters, first, memory, running, results, step, evaluation
 def record_events(kind, first, flat, memory, running, events, time):
     """Count the gaps that have opened or closed, and write the time (s) and kind of the first events."""
     for lane in range(len(running)):
-        touching = memory[GAP, lane] <= 0.0
-        if touching != memory[IN_CONTACT, lane]:
-            n_events = int(memory[EVENTS, lane])
+        touching = memory[scheme.GAP, lane] <= 0.0
+        if touching != memory[scheme.IN_CONTACT, lane]:
+            n_events = int(memory[scheme.EVENTS, lane])
             if running[lane] and n_events < events.shape[1]:
                 events[first + lane, n_events, 0] = time
                 events[first + lane, n_events, 1] = IMPACT if touching else SEPARATED
-            memory[EVENTS, lane] += 1.0
-            memory[IMPACTS, lane] += touching
+            memory[scheme.EVENTS, lane] += 1.0
+            memory[scheme.IMPACTS, lane] += touching
             if touching:
-                shapes = shapes_at(kind, flat, np.uint64(lane), memory[OMEGA, lane] * time + memory[PSI0, lane])
-                speed = memory[PLATE_VZ, lane] * shapes.vz - memory[VZ, lane]
-                memory[IMPACT_SPEED, lane] = max(memory[IMPACT_SPEED, lane], speed)
-            memory[IN_CONTACT, lane] = touching
+                phase = memory[scheme.OMEGA, lane] * time + memory[scheme.PSI0, lane]
+                shapes = shapes_at(kind, flat, np.uint64(lane), phase)
+                speed = memory[scheme.PLATE_VZ, lane] * shapes.vz - memory[scheme.VZ, lane]
+                memory[scheme.IMPACT_SPEED, lane] = max(memory[scheme.IMPACT_SPEED, lane], speed)
+            memory[scheme.IN_CONTACT, lane] = touching

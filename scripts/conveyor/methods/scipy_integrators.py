@@ -22,17 +22,7 @@ from ..packing import as_rows, refuse_harmonics
 from ..parameters import LAST
 from ..solver import model
 from ..solver.status import EVENT_LOST, GAVE_UP, NOT_FINITE, OK, STATUS, STEP_TOO_SMALL, STUCK
-from .modes import (
-    ENDS,
-    SIGN,
-    counted_rates,
-    gap_of,
-    next_mode,
-    plate_motion,
-    put_beside,
-    scales,
-    terminal_events,
-)
+from . import modes
 
 INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA")
 TREATMENTS = ("sign", "events", "modes")
@@ -80,7 +70,7 @@ class Trajectory:
     integrator: str
     limit: int  # of evaluations
     times: np.ndarray  # s, ascending, at which states are wanted
-    mode: int = SIGN
+    mode: int = modes.SIGN
     evaluations: int = 0
     samples: list[np.ndarray] = field(default_factory=list)
     events: list[float] = field(default_factory=list)
@@ -97,7 +87,7 @@ def follow(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, 
     def right_side(t, state):
         if counting[-1] >= limit:
             raise Failed(GAVE_UP, limit)
-        counted_rates(derivatives, t, state, counting, trajectory.mode)
+        modes.counted_rates(derivatives, t, state, counting, trajectory.mode)
         return derivatives.copy()
 
     times = trajectory.times[len(trajectory.samples) :]
@@ -105,7 +95,7 @@ def follow(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, 
     try:
         # Radau's numerical Jacobian of a part that never moves sideways overflows; `run` checks the result.
         with np.errstate(over="ignore", invalid="ignore"):
-            events = terminal_events(trajectory.parameters, trajectory.mode)
+            events = modes.terminal_events(trajectory.parameters, trajectory.mode)
             solution = solve_ivp(right_side, (begin, end), state, events=events, **options)
     except ValueError as error:
         raise Failed(EVENT_LOST, int(counting[-1])) from error
@@ -120,10 +110,10 @@ def follow(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, 
 def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, treatment: str, rtol: float):
     """State at the time `end` (s), else an error Failed; absolute tolerances are `rtol` of `scales`."""
     parameters = trajectory.parameters
-    atol = rtol * np.maximum(scales(parameters), SMALLEST_SCALE)
+    atol = rtol * np.maximum(modes.scales(parameters), SMALLEST_SCALE)
     t, state = begin, state.copy()
-    if treatment != "sign" and trajectory.mode == SIGN:
-        trajectory.mode = next_mode(parameters, t, state, None, SIGN)
+    if treatment != "sign" and trajectory.mode == modes.SIGN:
+        trajectory.mode = modes.next_mode(parameters, t, state, None, modes.SIGN)
     met = set()  # modes and states at the time t
     while t < end:
         leg = follow(trajectory, t, end, state, rtol, atol)
@@ -137,12 +127,12 @@ def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray,
             met.clear()
         t, state = leg.t, leg.state
         if leg.ended is not None:
-            ended, _ = ENDS[trajectory.mode][leg.ended]
-            if ended is gap_of:
+            ended, _ = modes.ENDS[trajectory.mode][leg.ended]
+            if ended is modes.gap_of:
                 trajectory.events.append(t)
-            trajectory.mode = next_mode(parameters, t, state, ended, trajectory.mode)
+            trajectory.mode = modes.next_mode(parameters, t, state, ended, trajectory.mode)
             if treatment == "modes":
-                put_beside(parameters, t, state, ended, trajectory.mode, BESIDE)
+                modes.put_beside(parameters, t, state, ended, trajectory.mode, BESIDE)
         here = trajectory.mode, state.tobytes()
         if here in met:  # The run would not end.
             raise Failed(STUCK, 0)
@@ -183,8 +173,8 @@ def run(
         samples = np.full((len(times), 4), math.nan)
         return IntegratorRun(*(math.nan,) * 5, evaluations, STATUS[status], samples, np.empty(0))
 
-    z0 = parameters[model.Z0]
-    state = np.array([0.0, 0.0, plate_motion(parameters, 0.0)[0] if math.isnan(z0) else z0, parameters[model.VZ0]])
+    z0, vz0 = parameters[[model.Z0, model.VZ0]]
+    state = np.array([0.0, 0.0, modes.plate_motion(parameters, 0.0)[0] if math.isnan(z0) else z0, vz0])
     middle = (1.0 - LAST) * duration
     try:
         before = advance(trajectory, 0.0, middle, state, treatment, tolerance)

@@ -18,13 +18,14 @@ The part sticks while |ẍ_s + g sin α| ≤ μ_s F_c/m. The paper's conveyor ha
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import LONGEST, check_array, check_parameter, check_type
+from ..arguments import LONGEST, check_array, check_choice, check_count, check_number, check_parameter, check_type
 from ..parameters import HARMONIC, MOST_HARMONICS, PARAMETERS, TENSION_MODES
 from . import plate
 from .jit import compiled_inline
@@ -67,10 +68,8 @@ def check_harmonics(harmonics: Sequence[Harmonic | Mapping[str, float]]) -> tupl
             raise ValueError(f"harmonics[{k}] = {given!r} must have an order, and of {', '.join(HARMONIC)} only")
         for name, value in given.items():
             _, unit, (low, high) = HARMONIC[name]
-            kinds = (int, np.integer) if name == "order" else (int, float, np.integer, np.floating)
-            if isinstance(value, (bool, np.timedelta64)) or not isinstance(value, kinds) or not low <= value <= high:
-                kind = "a whole number" if name == "order" else "a number"
-                raise ValueError(f"harmonics[{k}].{name} = {value!r} must be {kind} in [{low:g}, {high:g}] {unit}")
+            check = check_count if name == "order" else partial(check_number, unit=unit)
+            check(f"harmonics[{k}].{name}", value, low, high)
         checked.append(Harmonic(int(given["order"]), *(float(given.get(name, 0.0)) for name in Harmonic._fields[1:])))
     orders = [harmonic.order for harmonic in checked]
     if len(set(orders)) < len(orders) or len(orders) > MOST_HARMONICS:
@@ -130,8 +129,7 @@ class Conveyor:
                 check_parameter(name, value)
         if self.static_friction is not None:
             check_static_friction(self.friction, self.static_friction)
-        if not isinstance(self.tension, str) or self.tension not in TENSION_MODES:
-            raise ValueError(f"tension = {self.tension!r} is not one of {', '.join(TENSION_MODES)}")
+        check_choice("tension", self.tension, TENSION_MODES)
         object.__setattr__(self, "harmonics", check_harmonics(self.harmonics))
 
 

@@ -222,12 +222,12 @@ def add_sums(shapes, sums):
 
 @compiled
 def sums_at(harmonics, phases):
-    """The Sums, float64, shape (n, 6), of packed harmonics, shape (n, 5 h), at phases (rad), shape (n,)."""
+    """The Sums, float64, shape (n, 6), of a plate's packed harmonics, shape (5 h,), at phases (rad), shape (n,)."""
     sums_of_phases = np.empty((len(phases), 6))
     for i in range(len(phases)):
         sums, (sine, cosine) = NO_SUMS, sine_and_cosine(phases[i])
-        for h in range(0, harmonics.shape[1], NUMBERS):
-            harmonic = numbers_at(harmonics[i], np.uint64(h), ONE)
+        for h in range(0, len(harmonics), NUMBERS):
+            harmonic = numbers_at(harmonics, np.uint64(h), ONE)
             sums = add_harmonic(sums, harmonic, *multiple(int(harmonic[K]), sine, cosine))
         copy(sums_of_phases[i], sums)
     return sums_of_phases
@@ -248,17 +248,12 @@ def largest_values(functions: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
     return largest
 
 
-def sums_of_waves(waves: np.ndarray, phases: np.ndarray) -> Sums:
-    """The Sums, each of the shape (n,), of a plate's packed harmonics, shape (5 h,), at phases (rad), shape (n,)."""
-    return Sums(*sums_at(np.tile(waves, (len(phases), 1)), phases).T)
-
-
 def largest_fall(harmonics: Sequence[float]) -> float:
     """The largest downward acceleration of the plate as a share of a_z, for the packed numbers of harmonics."""
     if len(harmonics) == 0:
         return 1.0
     waves = np.array(harmonics, dtype=np.float64)
-    (largest,) = largest_values(lambda phases: [-1.0] * (np.cos(phases) + sums_of_waves(waves, phases).az)[None])
+    (largest,) = largest_values(lambda phases: [-1.0] * (np.cos(phases) + Sums(*sums_at(waves, phases).T).az)[None])
     return float(largest)
 
 
@@ -268,7 +263,7 @@ def peaks(waves: np.ndarray, shift: float) -> Peaks:
         return Peaks(1.0, 1.0, 1.0, 1.0, 1.0)
 
     def sizes(phases: np.ndarray) -> np.ndarray:
-        added = sums_of_waves(waves, phases)
+        added = Sums(*sums_at(waves, phases).T)
         along, normal = np.cos(phases + shift), np.cos(phases)
         swing = np.sin(phases + shift) + added.vx
         return np.abs([along + added.x, normal + added.z, swing, along + added.ax, normal + added.az])
@@ -278,8 +273,7 @@ def peaks(waves: np.ndarray, shift: float) -> Peaks:
 
 def motion(a_x: float, a_z: float, omega: float, shift: float, harmonics: np.ndarray, phase: np.ndarray) -> dict:
     """Position and velocity along the track, x and vx, and normal to it, z and vz (m, m/s), at phases (rad)."""
-    added = sums_at(np.tile(harmonics, (phase.size, 1)), np.ravel(phase))
-    added = Sums(*added.T.reshape(6, *phase.shape))
+    added = Sums(*sums_at(harmonics, np.ravel(phase)).T.reshape(6, *phase.shape))
     return {
         "x": -(a_x / omega**2) * (np.cos(phase + shift) + added.x),
         "vx": (a_x / omega) * (np.sin(phase + shift) + added.vx),

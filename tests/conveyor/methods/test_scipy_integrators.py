@@ -53,7 +53,7 @@ def test_scipy_makes_as_many_evaluations_as_allowed(monkeypatch):
         parameters[-1] += 1.0
         derivatives[:] = state
 
-    monkeypatch.setattr(scipy_integrators, "counted_rates", counted_rates)
+    monkeypatch.setattr(modes, "counted_rates", counted_rates)
     trajectory = Trajectory(scene("riding"), "RK45", 100, np.empty(0))
     with pytest.raises(Failed) as failure:
         scipy_integrators.follow(trajectory, 0.0, 1.0, np.ones(4), 1e-12, np.full(4, 1e-12))

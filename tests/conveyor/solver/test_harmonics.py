@@ -321,7 +321,7 @@ def test_packed_parameters_keep_harmonics():
 @pytest.mark.parametrize(
     ("harmonic", "message"),
     [
-        ({"order": 1}, "whole number in \\[2, 100\\]"),
+        ({"order": 1}, "whole number from 2 to 100"),
         ({"order": 2.0}, "whole number"),
         ({"order": 2, "normal": -0.1}, "normal = -0.1"),
         ({"order": 2, "phase": 0.1}, "must have an order"),

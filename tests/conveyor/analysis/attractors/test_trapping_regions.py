@@ -80,16 +80,23 @@ def test_an_orbit_that_does_not_attract_has_no_neighbourhood():
     assert trapping_regions.find_trapping_region(row, TOLERANCE, state, 1, most=10**6)[0] is None
 
 
-def test_norm_contracts_in_each_step():
+@pytest.mark.parametrize(
+    ("norm_of", "stretch", "radii", "too_slow"),
+    [
+        (trapping_regions.contracting_norm, [[1.0, 20.0], [1.0, 1.0]], (0.0, 0.98), (0.999, 1.0, 2.0)),
+        (trapping_regions.slow_norm, 1.0, (0.98, 0.9995), (1.0,)),
+    ],
+)
+def test_norm_contracts_in_each_step(norm_of, stretch, radii, too_slow):
     generator = np.random.default_rng(1)
     for _ in range(200):
-        matrix = generator.normal(size=(2, 2)) * [[1.0, 20.0], [1.0, 1.0]]
-        matrix *= generator.uniform(0.0, 0.98) / np.abs(np.linalg.eigvals(matrix)).max()
-        norm = trapping_regions.contracting_norm(matrix)
+        matrix = generator.normal(size=(2, 2)) * stretch
+        matrix *= generator.uniform(*radii) / np.abs(np.linalg.eigvals(matrix)).max()
+        norm = norm_of(matrix)
         assert np.linalg.norm(norm @ matrix @ np.linalg.inv(norm), 2) < 1.0
         assert np.linalg.norm(np.linalg.inv(norm), 2) <= 1.0 + 1e-9
-        for radius in (0.999, 1.0, 2.0):
-            assert trapping_regions.contracting_norm(matrix * radius / np.abs(np.linalg.eigvals(matrix)).max()) is None
+        for radius in too_slow:
+            assert norm_of(matrix * radius / np.abs(np.linalg.eigvals(matrix)).max()) is None
 
 
 SLOW_CONVEYOR = {
@@ -118,17 +125,6 @@ def test_slow_orbits_have_neighbourhoods_in_which_motions_stay():
     assert sampling.follow(row[None], edge, 20_000, TOLERANCE).followed[0] > 10_000
     table = attractor_table.AttractorTable(orbits, attractor_table.NO_ATTRACTORS.chaotic)
     assert sampling.follow(row[None], edge, 20_000, TOLERANCE, table).followed[0] < 1500
-
-
-def test_slow_norm_contracts_in_each_step():
-    generator = np.random.default_rng(1)
-    for _ in range(200):
-        matrix = generator.normal(size=(2, 2))
-        matrix *= generator.uniform(0.98, 0.9995) / np.abs(np.linalg.eigvals(matrix)).max()
-        norm = trapping_regions.slow_norm(matrix)
-        assert np.linalg.norm(norm @ matrix @ np.linalg.inv(norm), 2) < 1.0
-        assert np.linalg.norm(np.linalg.inv(norm), 2) <= 1.0 + 1e-9
-        assert trapping_regions.slow_norm(matrix / np.abs(np.linalg.eigvals(matrix)).max()) is None
 
 
 def test_orbits_can_be_left_out():
