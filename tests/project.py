@@ -35,7 +35,7 @@ TINY = {
     "sweeps": {"amplitudes": COARSE, "on_plate": {"axes": {"acceleration": {"num": 3}}}},
     "estimates": {"phase": COARSE_PAIRS},
     # Tables of the chart on where to run a conveyor, which the default target makes for every config.
-    "operating": {"acceleration": {"num": 4}, "dimensionless": {"resolution": 0.2}, "starts": 16},
+    "operating": {"acceleration": {"num": 4}, "resolution": 0.2, "starts": 16},
     "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},
     "drift": {"effort": 0.06},
 }

@@ -28,7 +28,7 @@ COARSE = {
     "regressions": {"height": {"valley": {"num": 9}}},
     "orbits": {"seeds": [], "max_period": 1},
     "attractors": FEW | {"transient": 50, "strobes": 8},
-    "operating": FEW | {"dimensionless": {"resolution": 0.2}, "starts": 16},
+    "operating": FEW | {"resolution": 0.2, "starts": 16},
     "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},
     "drift": {"effort": 0.06},
     "track": {"inclination": {"num": 2}, "phase_shift": {"num": 3}, "starts": 4},

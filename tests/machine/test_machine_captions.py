@@ -25,7 +25,7 @@ def test_the_operating_chart_says_how_many_amplitudes_a_limit_leaves_open():
     rows = {"acceleration": [30.0, 30.0, 40.0, 50.0], "vertical": 1.0, "state": "first", "starts": 4, "share": 1.0}
     rows |= {"stderr": 0.0, "mean_velocity": [0.1, np.nan, 0.1, np.nan], "status": ["ok", "state not decided"] * 2}
     shares = pd.DataFrame(rows)
-    shares.attrs = {"starts": 4, "resolution": 0.2, "height": [0.0, 1e-3], "vz0": [-0.2, 0.2]}
+    shares.attrs = {"starts": 4, "resolution": 0.005, "height": [0.0, 1e-3], "vz0": [-0.2, 0.2]}
     shares.attrs["psi0"] = [0.0, 6.28]
     none = pd.DataFrame()
     for name, tables in (("basin_stability", {}), ("operating", {"regimes": none, "advice": none})):

@@ -12,7 +12,6 @@ rule motion:
     wildcard_constraints:
         section="signals|spectra|impacts|critical",
         name=one_of({name for section in ("signals", "spectra", "impacts", "critical") for name in config[section]}),
-    threads: THREADS
     params:
         **stage("conveyor_pipeline.paper.motion.{section}", "{section}/{name}"),
     script:

@@ -11,7 +11,6 @@ rule estimates:
         benchmark_file("estimates/{name}")
     wildcard_constraints:
         name=one_of(config["estimates"]),
-    threads: THREADS
     params:
         **stage("conveyor_pipeline.paper.orbits.estimates", "estimates/{name}"),
     script:

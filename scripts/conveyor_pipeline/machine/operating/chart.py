@@ -171,7 +171,7 @@ def make(
         "frictionless": is_frictionless(transit.attrs["model"]),
         "slides": (shares.status == SLIDES_AWAY).any(),
         # The digits to which the ends of intervals of amplitudes are known.
-        "digits": max(0, math.ceil(-math.log10(shares.attrs["resolution"]))),
+        "digits": max(0, math.ceil(-math.log10(shares.attrs["resolution"] * shares.acceleration.max()))),
         "throw_per_amplitude": shares.vertical.iloc[-1] / shares.acceleration.iloc[-1],
         "stroke_per_amplitude": stroke(1.0, transit.attrs["model"]["frequency"]),
     }

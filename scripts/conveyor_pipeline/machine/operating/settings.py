@@ -41,12 +41,11 @@ THROWS = axis(THROW, "throw numbers")
 class Operating(TypedDict):
     dimensionless: dimensionless(
         acceleration=THROWS,
-        resolution=number("width to which a bracket is halved", gt=0, le=1e3),
         height=interval(number("height above the plate", ge=0, le=1e6), "initial heights", point=True),
         vz0=interval(number("initial velocity", ge=-1e6, le=1e6), "initial velocities", point=True),
     )
     acceleration: AMPLITUDES
-    resolution: NotRequired[number("width to which a bracket is halved", "m/s²", gt=0, le=1e4)]
+    resolution: number("width to which a bracket is halved, over the amplitude", gt=0, lt=1)
     height: NotRequired[interval(number("height above the plate", "m", ge=0, le=10), "initial heights", point=True)]
     vz0: NotRequired[interval(Velocity, "initial velocities", point=True)]
     psi0: interval(MODEL_TYPES["psi0"], "phases of the excitation", point=True)

@@ -226,7 +226,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     while True:
         summary = regimes.summarize_amplitudes(table)
         places, regime = summary.acceleration.to_numpy(), summary.regime.to_numpy()
-        wide = (regime[1:] != regime[:-1]) & (np.diff(places) > settings["resolution"])
+        wide = (regime[1:] != regime[:-1]) & (np.diff(places) > settings["resolution"] * places[1:])
         if not wide.any() or len(places) >= len(amplitudes) + MOST_ADDED:
             return {"shares": table, "regimes": regimes.intervals_of(summary, table)}
         between = 0.5 * (places[1:] + places[:-1])[wide]
