@@ -54,22 +54,22 @@ def finite_difference_exponent(
     if method != "event":
         indices = np.rint(times / step).astype(np.int64)
         times = indices * step
-    pairs = np.stack([as_rows(parameters), as_rows(perturbed)], axis=1)
-    both = pairs.reshape(-1, pairs.shape[2])
-    signals = np.empty((len(both), len(times)))
+    tables = [as_rows(parameters), as_rows(perturbed)]
+    signals = np.empty((2, len(tables[0]), len(times)))
 
     def work(begin, end):
-        rows = both[begin:end]
-        if method == "event":
-            moments = np.tile(times, (len(rows), 1))
-            samples, _ = trajectory.integrate(rows, moments, tolerance=tolerance, feeding=feeding)
-        else:
-            _, samples, _ = fixed_step.follow(rows, step, indices[-1], method, indices)
-        signals[begin:end] = samples[:, :, column]
+        # Fixed steps of alike plates take less time, and a perturbed phase is another plate.
+        for rows, signal in zip(tables, signals, strict=True):
+            if method == "event":
+                moments = np.tile(times, (end - begin, 1))
+                samples, _ = trajectory.integrate(rows[begin:end], moments, tolerance=tolerance, feeding=feeding)
+            else:
+                _, samples, _ = fixed_step.follow(rows[begin:end], step, indices[-1], method, indices)
+            signal[begin:end] = samples[:, :, column]
 
     # Chunks of fixed-step runs fill the lanes of a register.
-    for_each_chunk(work, len(both), threads=threads, chunk=2 if method == "event" else 8, progress=progress)
-    here, there = signals[0::2], signals[1::2]
+    for_each_chunk(work, len(tables[0]), threads=threads, chunk=1 if method == "event" else 16, progress=progress)
+    here, there = signals
     resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)
     difference = np.maximum(np.abs(there - here), resolution)
     return np.mean(np.log(difference / epsilon) / times, axis=1)

@@ -88,9 +88,9 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
     """The settings (`search`), amplitudes (m/s²) and throw numbers of the table of shares.
 
     `unseen_share` is the largest share of initial conditions that may lead to a motion that none of the tested ones
-    leads to. `located` is the largest relative distance between neighbouring amplitudes with different regimes, at
-    least the resolution of the config. `unsettled` is the number of amplitudes at which a search ended before a state or a
-    velocity was known.
+    leads to. `located` is the largest relative distance between neighbouring amplitudes with different
+    regimes, at least the resolution of the config. `unsettled` is the number of amplitudes at which a search ended
+    before a state or a velocity was known.
     """
     amplitudes = np.sort(shares.acceleration.unique())
     regime = summarize_amplitudes(shares).regime.to_numpy()
