@@ -219,7 +219,7 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
         labels = {"state": np.full(n, states), "period": np.ones(n, np.int64), "longest_flight": np.zeros(n)}
         return Columns(labels | {"cycles": np.arange(n)})
 
-    monkeypatch.setattr(shares, "label_starts", motions_found)
+    monkeypatch.setattr(shares, "labels_of", motions_found)
     velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)
     monkeypatch.setattr(shares, "velocities", lambda *_, **__: velocities)
     row = shares.shares_at(np.array([40.0]), BOX, followed=2).iloc[0]
@@ -227,6 +227,22 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
     assert row.starts == BOX["starts"]
     peaks = (0.2, 2.0) if row.status == "ok" else (np.nan, np.nan)
     assert (row.impact_speed, row.peak_force) == pytest.approx(peaks, nan_ok=True)
+
+
+def test_where_motions_settle_slowly_a_few_initial_conditions_are_followed_to_the_limit(monkeypatch):
+    """One of the first initial conditions at 49 m/s² ends undecided."""
+
+    def followed(parameters, *, cycles, **_):
+        slow = (parameters["acceleration"] == 49.0) & (np.arange(len(parameters)) == len(parameters) - 1)
+        return Columns({"state": np.where(slow, "undecided", "first"), "cycles": np.full(len(parameters), cycles)})
+
+    monkeypatch.setattr(shares, "classify", followed)
+    monkeypatch.setattr(shares, "shared_attractors", lambda *_, **__: None)
+    settings = {**BOX, "settling": 20_000, "starts": 100}
+    rows = shares.population(np.array([40.0, 49.0]), settings, shares.IDENTICAL)
+    labels = shares.labels_of(rows, settings)
+    assert np.flatnonzero(labels.cycles < 20_000).tolist() == list(range(100 + shares.TRIED, 200))
+    assert labels.state[100 + shares.TRIED - 1] == "undecided"
 
 
 def test_the_standard_error_agrees_with_repeated_draws():
