@@ -13,7 +13,7 @@ rule sweeps:
     wildcard_constraints:
         name=one_of(name for name, count in SHARDS.items() if count == 1),
     # The code of a small sweep is compiled on one core, so that other jobs run beside it.
-    threads: lambda wildcards: THREADS if points_of_sweep(wildcards) > 10_000 else 1
+    threads: lambda wildcards: THREADS if rows_of_shard(wildcards.name, 0)[1] > 10_000 else 1
     resources:
         mem_mb=lambda wildcards, attempt: 1000 * attempt,
         runtime=lambda wildcards, attempt: 120 * attempt,
