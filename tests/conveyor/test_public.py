@@ -483,7 +483,7 @@ def test_long_functions_show_one_bar(orbit, capsys):
     }
     for name, call in calls.items():
         call(name)
-        shown = [line for line in capsys.readouterr().err.splitlines() if line.startswith(f"{name}:")]
+        shown = [line for line in capsys.readouterr().err.splitlines() if f"{name}:" in line]
         assert len(shown) == 1, (name, shown)
         done, _, total = shown[0].split()[1:4]
         assert total.startswith(("?", done)), shown
