@@ -439,9 +439,9 @@ def test_the_page_of_blocks_compares_its_advice_with_that_of_points(refined):
     page = page_of(refined, [rows, advice_rows, changes])
     begin = page[: page.index("## Where to run")]
     assert "The parts are blocks of 5 mm by 1 mm (length by height) with an initial tilt of up to 0.03 rad." in begin
-    assert "**A point mass would have given the same advice.**" in begin
-    even = "For even feeding: A point mass would have led to another advice: 40 m/s², where the slowest 5 %"
-    assert f"{even} of the blocks have 1 cm/s." in begin
+    assert "**For fast feeding, a point mass would have given the same advice. For even" in begin
+    even = "For even feeding, a point mass would have led to another advice: 40 m/s², where the slowest 5 %"
+    assert f"{even} of the blocks have 1 cm/s.**" in begin
     assert "Up to 360 parts of 5 mm per minute" in page
     assert "- Motion of a point mass: riding" in page
     assert "point mass" not in page_of(refined, advised())
