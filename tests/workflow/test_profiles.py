@@ -46,7 +46,7 @@ def test_slurm_gets_the_jobs(edited, tmp_path):
     assert found.returncode != 0
     assert calls.is_file(), found.stdout
     submitted = calls.read_text().splitlines()
-    assert all("--cpus-per-task=2" in call for call in submitted)
+    assert all("--cpus-per-task=1" in call for call in submitted)
 
 
 def test_results_are_checked_by_the_interpreter_that_runs_snakemake(tmp_path, monkeypatch):

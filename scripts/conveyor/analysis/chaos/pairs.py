@@ -54,8 +54,8 @@ def finite_difference_exponent(
     if method != "event":
         indices = np.rint(times / step).astype(np.int64)
         times = indices * step
-    tables = [as_rows(parameters), as_rows(perturbed)]
-    signals = np.empty((2, len(tables[0]), len(times)))
+    tables = np.stack([as_rows(parameters), as_rows(perturbed)])
+    signals = np.empty((*tables.shape[:2], len(times)))
 
     def work(begin, end):
         # Fixed steps of alike plates take less time, and a perturbed phase is another plate.
@@ -68,7 +68,7 @@ def finite_difference_exponent(
             signal[begin:end] = samples[:, :, column]
 
     # Chunks of fixed-step runs fill the lanes of a register.
-    for_each_chunk(work, len(tables[0]), threads=threads, chunk=1 if method == "event" else 16, progress=progress)
+    for_each_chunk(work, tables.shape[1], threads=threads, chunk=1 if method == "event" else 16, progress=progress)
     here, there = signals
     resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)
     difference = np.maximum(np.abs(there - here), resolution)
