@@ -74,7 +74,7 @@ def test_fixed_steps_are_vector_code(widest, method, least, plate):
         parameters = np.array([pack(Conveyor(**plate), Start())] * runs)
         fixed_step.run(parameters, 1e-5, 1e-6, method)
         kind = fixed_step_lanes.kind_of(fixed_step.METHODS.index(method), parameters)
-        return vector_instructions(fixed_step_lanes.compiled_for(kind))[widest]
+        return vector_instructions(fixed_step_lanes.compiled_for(kind).__wrapped__)[widest]
 
     single = count(1)
     assert count(2) - single > least

@@ -13,7 +13,7 @@ from ..parameters import PARAMETERS
 from ..solver import model, plate
 from ..solver.contact_lanes import LANES
 from ..solver.contact_law import coefficients_per_mass
-from ..solver.jit import compiled, compiled_inline
+from ..solver.jit import compiled_entry, compiled_inline
 from . import scheme
 from .force_law import least_push, least_rub
 from .recording import record_events, record_results, record_samples
@@ -100,7 +100,7 @@ def compiled_for(kind):
     """The compiled part of `follow` for a Kind."""
     method = kind.method
 
-    @compiled
+    @compiled_entry
     def integrate(parameters, step, n_steps, sample_indices, samples, events, results, stopped, work):
         flat, memory = work
         lanes = 1 if kind.single else LANES

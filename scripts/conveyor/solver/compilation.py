@@ -3,8 +3,9 @@
 While it compiles, Python's garbage collector is off: it would search through all that the compiler still needs, and the
 first `simulate` would take a tenth longer.
 
-One process at a time looks for code in the cache and compiles what is missing. Processes that start together wait for
-the first one and load its code, instead of compiling the same functions.
+One process at a time looks for the code of an entry (see `jit`) in the cache and compiles it, or for any code without
+an entry. Processes that start together wait for the first one and load its code, instead of compiling the same entry;
+another entry they compile meanwhile.
 
 Numba sends the event "numba:compile" for each function that its cache does not hold, and "numba:compiler_lock" around
 each search in the cache with the compilation that may follow (see "Event API" in its documentation).
@@ -14,6 +15,8 @@ import gc
 import os
 import sys
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache
 
 from filelock import FileLock
@@ -63,31 +66,41 @@ class WithoutCollector(event.Listener):
 
 
 @cache
-def lock_of(process: int) -> FileLock:
-    """The lock of the cache, which all threads of a process share. A forked process needs a lock of its own."""
-    file = machine_code.root() / "compiling.lock"
+def lock_of(process: int, entry: str) -> FileLock:
+    """The lock of an entry, which all threads of a process share. A forked process needs locks of its own."""
+    file = machine_code.root() / f"compiling{entry and '-'}{entry}.lock"
     return FileLock(file, timeout=LONGEST_WAIT, thread_local=False, fallback_to_soft=False)
 
 
 class OneProcess(event.Listener):
-    """Holds the lock of the cache from the first to the last of nested searches in it. A killed process releases it."""
+    """Holds a lock from the first to the last of nested searches in the cache. A killed process releases it."""
 
     threads = threading.local()
 
     def on_start(self, event: event.Event) -> None:
         depth = getattr(self.threads, "depth", 0)
         if depth == 0:
-            lock = lock_of(os.getpid())
+            self.threads.lock = lock_of(os.getpid(), getattr(self.threads, "entry", ""))
             try:
-                lock.acquire()
+                self.threads.lock.acquire()
             except (OSError, NotImplementedError):  # too late, or a file system without locks
-                lock.timeout = 0.0
+                self.threads.lock.timeout = 0.0
         self.threads.depth = depth + 1
 
     def on_end(self, event: event.Event) -> None:
         self.threads.depth -= 1
         if self.threads.depth == 0:
-            lock_of(os.getpid()).release()
+            self.threads.lock.release()
+
+
+@contextmanager
+def entered(entry: str) -> Iterator[None]:
+    """What this thread searches for meanwhile has the lock of this entry."""
+    OneProcess.threads.entry = entry
+    try:
+        yield
+    finally:
+        OneProcess.threads.entry = ""
 
 
 TIMER = event.TimingListener()

@@ -1,6 +1,8 @@
 """The decorators of compiled functions, and operations that numba compiles badly or has no word for.
 
 `compiled` is for a function that is called from Python, or rarely. Numba compiles it by itself; a caller jumps to it.
+`compiled_entry` is for one that takes seconds to compile and that only Python calls. Processes that start together
+compile different entries at the same time.
 `compiled_inline` is for a small function that runs several times in each step. Numba compiles it by itself, and LLVM
 copies its machine code into every caller. LLVM turns a loop over lanes into vector code only if all functions in it are
 copied: otherwise maps would take 1.5 times as long, and their labels 1.8 times. Single runs gain 4 %.
@@ -9,11 +11,13 @@ compiles it alone: otherwise sweeps would take 2.5 times as long, and the first 
 longer.
 """
 
+import functools
+
 import numba
 from numba.core import types
 from numba.extending import intrinsic, register_jitable
 
-from . import compilation, machine_code  # noqa: F401 - says that it compiles; chooses the folder of the machine code
+from . import compilation, machine_code  # noqa: F401 - chooses the folder of the machine code
 
 # Functions run without the GIL, so that threads can share the rows of a sweep. Divisions by zero follow IEEE 754
 # instead of raising. C code calls no function, so that numba need not compile an entry for it.
@@ -23,6 +27,18 @@ OPTIONS = {"cache": True, "nogil": True, "error_model": "numpy", "no_cfunc_wrapp
 def compiled(function, **options):
     """Compile a function when it is first called."""
     return numba.njit(**OPTIONS, **options)(function)
+
+
+def compiled_entry(function):
+    """`compiled`, for calls from Python only, with a lock of its own."""
+    dispatcher, name = compiled(function), f"{function.__module__}.{function.__name__}"
+
+    @functools.wraps(dispatcher, updated=())
+    def entry(*arguments):
+        with compilation.entered(name):
+            return dispatcher(*arguments)
+
+    return entry
 
 
 def compiled_inline(function):

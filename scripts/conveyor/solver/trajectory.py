@@ -8,7 +8,7 @@ from ..parallel import call_interruptibly
 from . import contact, pieces, plate, repeated_steps
 from .arrivals import EVERY_CYCLE, first_block, has_arrived, record_arrivals, skip_blocks
 from .horizontal import Horizontal, follow_horizontal, touch_down
-from .jit import compiled, no_refcount
+from .jit import compiled_entry, no_refcount
 from .model import FREQUENCY, VZ0, Z0
 from .record import MAX_GAP, RESULTS, SAMPLED, SAMPLES, Record, Step, count_piece, end_record, is_sampled, record_end
 from .status import OK
@@ -85,7 +85,7 @@ def integrate(
     return samples, results
 
 
-@compiled
+@compiled_entry
 def follow(parameters, vx0, options, records, distances, series):
     """The compiled part of `integrate`.
 

@@ -60,7 +60,7 @@ sweep(table.T, duration=np.full((2, 2), 0.1).T)
 sample_runs(table[0], np.array([[0.0, 0.1], [0.1, 0.1]], order="F"), columns=["z"], skip=True)
 transits(table[1], np.array([0.01]), np.array([1]), begin=0)
 finite_difference_exponent(table[0], table[1], 1e-8, duration=0.1)
-print(len(trajectory.follow.signatures))
+print(len(trajectory.follow.__wrapped__.signatures))
 """
 IMPATIENT = """
 from conveyor.solver import compilation
@@ -113,14 +113,19 @@ def test_of_processes_that_start_together_one_compiles(run):
 def test_a_process_does_not_wait_for_ever(run, tmp_path):
     """The process that compiles may have been suspended."""
     (tmp_path / "conveyor").mkdir()
-    with FileLock(tmp_path / "conveyor/compiling.lock"):
+    with FileLock(tmp_path / "conveyor/compiling-conveyor.solver.trajectory.follow.lock"):
         found = run(IMPATIENT + ROOT_OF_LINE)
     assert [float(number) > 0.0 for number in found.stdout.split()] == [True, True]
 
 
 def test_a_killed_process_leaves_no_lock(run, tmp_path):
     (tmp_path / "conveyor").mkdir()
-    command = [sys.executable, "-c", HOLD_LOCK, str(tmp_path / "conveyor/compiling.lock")]
+    command = [
+        sys.executable,
+        "-c",
+        HOLD_LOCK,
+        str(tmp_path / "conveyor/compiling-conveyor.solver.trajectory.follow.lock"),
+    ]
     with subprocess.Popen(command, stdout=subprocess.PIPE) as holder:
         holder.stdout.readline()
         holder.send_signal(signal.SIGKILL)

@@ -318,9 +318,9 @@ def test_runs_are_compiled_once_for_all_layouts_of_times():
     by_columns = np.linspace(0.0, [0.01, 0.02], 3, axis=1)
     assert not by_columns.flags.c_contiguous
     by_rows, _ = trajectory_module.integrate(parameters, np.ascontiguousarray(by_columns), tolerance=1e-6)
-    compiled = list(trajectory_module.follow.signatures)
+    compiled = list(trajectory_module.follow.__wrapped__.signatures)
     np.testing.assert_array_equal(trajectory_module.integrate(parameters, by_columns, tolerance=1e-6)[0], by_rows)
-    assert trajectory_module.follow.signatures == compiled
+    assert trajectory_module.follow.__wrapped__.signatures == compiled
 
 
 @pytest.mark.parametrize("acceleration", [2.0, 8.0])

@@ -15,7 +15,7 @@ import numpy as np
 from ...parallel import call_interruptibly
 from ...solver import contact, contact_lanes, pieces, plate, vertical
 from ...solver.contact_lanes import COSINE, END, LANES, LENGTH, NONE, SINE, STEPS, TIME, V, W
-from ...solver.jit import compiled, compiled_into_callers, no_refcount
+from ...solver.jit import compiled_entry, compiled_into_callers, no_refcount
 from ...solver.model import VZ0, Z0
 from ...solver.pieces import BEGIN_OF_CYCLE, time_to_next_cycle
 from ...solver.status import OK
@@ -106,7 +106,7 @@ def begin_cycle(c, state, lane, steps, cycle):
 def compiled_for(harmonics):
     """The compiled part of `follow_all_to_attractors` for plates with a number of harmonics, or None."""
 
-    @compiled
+    @compiled_entry
     def follow(parameters, tolerance, search, ends, side_by_side, work):
         """Follow trajectories.
 

@@ -16,7 +16,7 @@ from ...packing import check_rows
 from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
 from ...solver import contact, contact_law, plate
-from ...solver.jit import compiled
+from ...solver.jit import compiled_entry
 from ...solver.model import FREQUENCY, PSI0, Conveyor
 from ...solver.pieces import BEGIN_OF_CYCLE
 from ...solver.status import NOT_FINITE, OK, STATUS
@@ -39,7 +39,7 @@ LOST = -20.0
 SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs from zero
 
 
-@compiled
+@compiled_entry
 def fill_stretches(parameters, state, tolerance, harmonics, phase, tangent, stretches, contact_times):
     """Follow a trajectory, and the stretching of its perturbations in each cycle; a code of status.STATUS.
 
