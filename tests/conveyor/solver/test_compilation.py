@@ -10,7 +10,7 @@ import pytest
 from filelock import FileLock
 from project import ROOT
 
-from conveyor.solver.compilation import NOTICE
+from conveyor.solver.compilation import LONGEST_WAIT, NOTICE
 
 # A root of 1 - 2 s, by several functions, so that a notice for each would be seen.
 ROOT_OF_LINE = """
@@ -62,6 +62,14 @@ transits(table[1], np.array([0.01]), np.array([1]), begin=0)
 finite_difference_exponent(table[0], table[1], 1e-8, duration=0.1)
 print(len(trajectory.follow.__wrapped__.signatures))
 """
+LOCK = "conveyor/compiling-conveyor.solver.trajectory.follow.lock"
+FIXED_STEPS = """
+from conveyor import Conveyor, simulate
+from conveyor.solver import compilation
+
+simulate(Conveyor(acceleration=30.0), duration=0.01, method="euler", step=1e-6)
+print(compilation.compile_seconds())
+"""
 IMPATIENT = """
 from conveyor.solver import compilation
 compilation.LONGEST_WAIT = 0.1
@@ -83,13 +91,14 @@ print(numba.njit(lambda number: number + 1)(1))
 
 @pytest.fixture
 def run(tmp_path):
-    """A function that runs code in a new session with a cache that is empty at first."""
+    """A function that runs code in a new session with a cache that is empty at first; an error if it waits for a lock."""
 
     def in_session(code, **variables):
         environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": str(ROOT / "scripts")} | variables
         environment.pop("NUMBA_CACHE_DIR", None)
         command = [sys.executable, "-W", "ignore", "-c", code]
-        return subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+        options = {"capture_output": True, "text": True, "check": True, "timeout": 0.6 * LONGEST_WAIT}
+        return subprocess.run(command, env=environment, **options)
 
     return in_session
 
@@ -113,19 +122,21 @@ def test_of_processes_that_start_together_one_compiles(run):
 def test_a_process_does_not_wait_for_ever(run, tmp_path):
     """The process that compiles may have been suspended."""
     (tmp_path / "conveyor").mkdir()
-    with FileLock(tmp_path / "conveyor/compiling-conveyor.solver.trajectory.follow.lock"):
+    with FileLock(tmp_path / LOCK):
         found = run(IMPATIENT + ROOT_OF_LINE)
     assert [float(number) > 0.0 for number in found.stdout.split()] == [True, True]
 
 
+def test_an_entry_does_not_wait_for_another(run, tmp_path):
+    (tmp_path / "conveyor").mkdir()
+    with FileLock(tmp_path / LOCK):
+        found = run(FIXED_STEPS)
+    assert float(found.stdout) > 0.0
+
+
 def test_a_killed_process_leaves_no_lock(run, tmp_path):
     (tmp_path / "conveyor").mkdir()
-    command = [
-        sys.executable,
-        "-c",
-        HOLD_LOCK,
-        str(tmp_path / "conveyor/compiling-conveyor.solver.trajectory.follow.lock"),
-    ]
+    command = [sys.executable, "-c", HOLD_LOCK, str(tmp_path / LOCK)]
     with subprocess.Popen(command, stdout=subprocess.PIPE) as holder:
         holder.stdout.readline()
         holder.send_signal(signal.SIGKILL)
