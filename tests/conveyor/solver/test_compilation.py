@@ -91,7 +91,7 @@ print(numba.njit(lambda number: number + 1)(1))
 
 @pytest.fixture
 def run(tmp_path):
-    """A function that runs code in a new session with a cache that is empty at first; an error if it waits for a lock."""
+    """A function that runs code in a new session, with a cache that is empty at first; an error if it waits long."""
 
     def in_session(code, **variables):
         environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path), "PYTHONPATH": str(ROOT / "scripts")} | variables
