@@ -3,9 +3,9 @@
 While it compiles, Python's garbage collector is off: it would search through all that the compiler still needs, and the
 first `simulate` would take a tenth longer.
 
-One process at a time looks for the code of an entry (see `jit`) in the cache and compiles it, or for any code without
-an entry. Processes that start together wait for the first one and load its code, instead of compiling the same entry;
-another entry they compile meanwhile.
+Processes that start together compile each entry (see `jit`) once. One of them holds its lock, looks for its code in the
+cache, and compiles what is missing; the others wait and load it. Each entry has a lock of its own, because the entries
+of different methods have little code in common; all other functions share one lock.
 
 Numba sends the event "numba:compile" for each function that its cache does not hold, and "numba:compiler_lock" around
 each search in the cache with the compilation that may follow (see "Event API" in its documentation).
@@ -28,6 +28,7 @@ from . import machine_code
 KIND, SEARCH_KIND = "numba:compile", "numba:compiler_lock"
 # After this time, s, a process compiles without the lock. The other process may have been suspended.
 LONGEST_WAIT = 300.0
+OTHERS = "others"  # in place of an entry: the functions outside entries
 NOTICE = "Compiling the solver. This happens once per version; later runs load it from the cache."
 
 
@@ -67,8 +68,8 @@ class WithoutCollector(event.Listener):
 
 @cache
 def lock_of(process: int, entry: str) -> FileLock:
-    """The lock of an entry, which all threads of a process share. A forked process needs locks of its own."""
-    file = machine_code.root() / f"compiling{entry and '-'}{entry}.lock"
+    """The lock of an entry or of OTHERS, which all threads of a process share; a forked process needs its own."""
+    file = machine_code.root() / f"compiling-{entry}.lock"
     return FileLock(file, timeout=LONGEST_WAIT, thread_local=False, fallback_to_soft=False)
 
 
@@ -80,7 +81,7 @@ class OneProcess(event.Listener):
     def on_start(self, event: event.Event) -> None:
         depth = getattr(self.threads, "depth", 0)
         if depth == 0:
-            self.threads.lock = lock_of(os.getpid(), getattr(self.threads, "entry", ""))
+            self.threads.lock = lock_of(os.getpid(), getattr(self.threads, "entry", OTHERS))
             try:
                 self.threads.lock.acquire()
             except (OSError, NotImplementedError):  # too late, or a file system without locks
@@ -95,12 +96,12 @@ class OneProcess(event.Listener):
 
 @contextmanager
 def entered(entry: str) -> Iterator[None]:
-    """What this thread searches for meanwhile has the lock of this entry."""
+    """Meanwhile, this thread searches the cache under the lock of this entry."""
     OneProcess.threads.entry = entry
     try:
         yield
     finally:
-        OneProcess.threads.entry = ""
+        OneProcess.threads.entry = OTHERS
 
 
 TIMER = event.TimingListener()
