@@ -10,8 +10,6 @@ from conveyor.parameters import TANGENTIAL
 
 # Parameters of an initial condition, for tables that draw it from a box.
 INITIAL_CONDITION = ("psi0", "z0", "vz0")
-# Keys of the section `solver` for tables that follow motions until they settle.
-FOLLOWED = ("tolerance", "settling")
 
 
 def without_tangential(model: dict) -> dict:
@@ -30,11 +28,3 @@ def model_of(config: dict, section: str = "", *, normal: bool = False, without: 
         model |= config[section].get("model", {})
     model = {name: value for name, value in model.items() if name not in set(without)}
     return without_tangential(model) if normal else model
-
-
-def with_model(config: dict, *sections: str, solver: tuple[str, ...] = (), normal: bool = False) -> dict:
-    """Settings of the solver and of sections of the config, of which later ones win, with the first one's model."""
-    settings = {key: config["solver"][key] for key in solver}
-    for section in sections:
-        settings |= config[section]
-    return {**settings, "model": model_of(config, sections[0], normal=normal)}

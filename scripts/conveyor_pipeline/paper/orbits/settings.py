@@ -4,10 +4,10 @@ from typing import NotRequired
 
 from typing_extensions import TypedDict
 
+from conveyor_pipeline.common.axes import ends
 from conveyor_pipeline.common.settings import (
     Acceleration,
     Accelerations,
-    Duration,
     Followed,
     Height,
     Model,
@@ -21,13 +21,12 @@ from conveyor_pipeline.common.settings import (
     whole,
     word,
 )
-from conveyor_pipeline.common.table_settings import FOLLOWED, model_of, with_model
+from conveyor_pipeline.common.table_settings import model_of
 
 Epsilon = number("size of the perturbation, in units of the perturbed parameter", ge=1e-15, le=1)
 
 
 class Estimate(Followed):
-    duration: NotRequired[Duration]
     perturb: word("perturbed parameter", "psi0", "z0", "vz0")
     epsilon: Epsilon
     output: word("compared state variable", "x", "vx", "z", "vz")
@@ -81,20 +80,25 @@ CERTIFIED_TABLES = ("certificates", "certified_bifurcations", "certified_chaos",
 SPECTRUM_TOLERANCE = 1e-12  # of Lyapunov exponents: λ1 + λ2 is checked to 1e-8
 
 
+def with_solver(config: dict, section: str, *keys: str) -> dict:
+    """A section with some keys of the section `solver`, which it may replace, and with its model."""
+    own = {key: config["solver"][key] for key in keys} | config[section]
+    return own | {"model": model_of(config, section, normal=True)}
+
+
 def branches_settings(config: dict) -> dict:
-    return with_model(config, "orbits", solver=("tolerance",), normal=True)
+    return with_solver(config, "orbits", "tolerance")
 
 
 def certified_settings(config: dict) -> dict:
     own = config["certificates"]
-    axis = own["acceleration"]
-    ends = axis if isinstance(axis, list) else (axis["start"], axis["stop"])
-    also = [acceleration for acceleration in ALSO if min(ends) <= acceleration <= max(ends)]
+    low, high = (end(ends(own["acceleration"])) for end in (min, max))
+    also = [acceleration for acceleration in ALSO if low <= acceleration <= high]
     return {**own, "also": also, "model": model_of(config, "orbits", normal=True)}
 
 
 def strobes_settings(config: dict) -> dict:
-    return with_model(config, "attractors", solver=FOLLOWED, normal=True)
+    return with_solver(config, "attractors", "tolerance", "settling")
 
 
 def exponents_settings(config: dict) -> dict:

@@ -16,7 +16,7 @@ from conveyor_pipeline.common.settings import (
     mapping,
     whole,
 )
-from conveyor_pipeline.common.table_settings import FOLLOWED, model_of, with_model
+from conveyor_pipeline.common.table_settings import model_of
 from conveyor_pipeline.study.accuracy.scenes import LONGEST, SCENES
 
 Repeats = whole("repetitions", 1, 10**9)
@@ -42,7 +42,6 @@ SECTIONS = {
     "stability": mapping("limits of stability of the methods", {"effort": Effort}),
     "scene_budget": described(SceneBudget, "accuracy that each figure needs"),
     "map_check": described(MapCheck, "check of state maps by brute force"),
-    "settling_times": mapping("time until a motion settles", {"effort": Effort}),
 }
 # Points of a table of each section that are compared with a more accurate solution, by an effort of 1.
 BUDGETED = {
@@ -80,7 +79,6 @@ TABLE_SETTINGS = {
     "results/theory": lambda config: {"model": model_of(config)},
     **dict.fromkeys(("results/scene_budget", "results/budget_times"), scene_budget_settings),
     "results/map_check": itemgetter("map_check"),
-    "results/settling_times": lambda config: with_model(config, "settling_times", solver=FOLLOWED, normal=True),
 }
 # Kinds of tables with one table for each scene.
 TABLE_FAMILIES = dict.fromkeys(("precision", "precision_times"), (tuple(SCENES), precision_settings))
