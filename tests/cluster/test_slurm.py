@@ -9,7 +9,7 @@ import yaml
 from project import ROOT, Project, copy_project
 
 import local_slurm
-from conveyor_pipeline.config.entries import count_points
+from conveyor_pipeline.common.axes import count_points
 
 GUIDE = ROOT / "docs/guides/own_sweep.md"
 OBSTACLE = local_slurm.obstacle()

@@ -1,18 +1,12 @@
 """The points of a sweep: the product of axes, the first axis slowest, as a table of parameters."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 
 from conveyor import Conveyor, Start, parameter_table, replace_parameters
-
-Axis = Sequence[float | str] | Mapping[str, float]
-
-
-def count_values(axis: Axis) -> int:
-    """Number of values of an axis."""
-    return int(axis["num"]) if isinstance(axis, Mapping) else len(axis)
+from conveyor_pipeline.common.axes import Axis
 
 
 def axis_values(name: str, axis: Axis) -> np.ndarray:

@@ -8,7 +8,7 @@ from conveyor import DEFAULT_TOLERANCE, Columns, classify, restart
 from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS, AttractorTable, distinct_conveyors
 from conveyor.analysis.attractors.search import find_attractors
 from conveyor.packing import INITIAL_CONDITION
-from conveyor_pipeline.common import grid
+from conveyor_pipeline.common.axes import count_values
 
 # Conveyors per batch: the attractors of a conveyor take some 30 kB of memory.
 CONVEYORS = 2000
@@ -81,7 +81,7 @@ def label_entry(parameters: np.ndarray, settings: dict, **options) -> Columns:
     options : `threads` and `progress`, as in `label_starts`
     """
     varied = (axis for name, axis in settings["axes"].items() if name in INITIAL_CONDITION)
-    return label_starts(parameters, settings, starts=math.prod(map(grid.count_values, varied)), **options)
+    return label_starts(parameters, settings, starts=math.prod(map(count_values, varied)), **options)
 
 
 def label_ends(parameters: np.ndarray, z_end: np.ndarray, vz_end: np.ndarray, settings: dict, **options) -> Columns:

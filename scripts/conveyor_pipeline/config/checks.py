@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 from importlib import import_module
 
+from conveyor_pipeline.common.axes import count_points, count_values, ends
 from conveyor_pipeline.common.quantities import STIFFNESS, exponent_of, is_quantity
 from conveyor_pipeline.config.derived import faults_of_derived, with_derived
 from conveyor_pipeline.config.entries import (
@@ -17,10 +18,7 @@ from conveyor_pipeline.config.entries import (
     MEASURED_FILES,
     METHOD_SECTIONS,
     by_methods,
-    count_points,
     count_shards,
-    count_values,
-    ends,
     fill_defaults,
     values_of,
     variants,

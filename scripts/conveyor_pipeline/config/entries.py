@@ -3,6 +3,7 @@
 import math
 
 from conveyor.parameters import TANGENTIAL
+from conveyor_pipeline.common.axes import count_points, ends
 from conveyor_pipeline.common.table_settings import without_tangential
 from conveyor_pipeline.config.stages import declared
 
@@ -80,24 +81,9 @@ def resolve(config: dict, section: str, name: str) -> dict:
     return entry | {"model": without_tangential(entry["model"])} if is_normal(section, entry) else entry
 
 
-def ends(axis: list | dict) -> list:
-    """The values of an axis, or the first and the last one."""
-    return axis if isinstance(axis, list) else [axis["start"], axis["stop"]]
-
-
 def values_of(entry: dict, name: str) -> list:
     """The values that a parameter takes in a resolved entry, or the ends of their range."""
     return ends(entry["axes"][name]) if name in entry["axes"] else [entry["model"][name]]
-
-
-def count_values(axis: list | dict) -> int:
-    """Number of values of an axis."""
-    return len(axis) if isinstance(axis, list) else int(axis["num"])
-
-
-def count_points(axes: dict) -> int:
-    """Number of points in the product of axes."""
-    return math.prod(map(count_values, axes.values()))
 
 
 def count_shards(config: dict, entry: dict) -> int:

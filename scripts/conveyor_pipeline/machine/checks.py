@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 from conveyor import RANGES
 from conveyor_pipeline.common import csv_table
+from conveyor_pipeline.common.axes import count_values
 from conveyor_pipeline.common.settings import check_span
 from conveyor_pipeline.config.checks import LARGEST_TABLE
-from conveyor_pipeline.config.entries import count_values
 from conveyor_pipeline.machine.calibration import measurements
 from conveyor_pipeline.machine.excitation.limits import STATEMENT
 from conveyor_pipeline.machine.operating.settings import transit_axis

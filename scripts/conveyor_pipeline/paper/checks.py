@@ -1,10 +1,10 @@
 """Contradictions in the sections of the floor paper, as in config/checks.py."""
 
-import math
 from collections.abc import Iterator
 
+from conveyor_pipeline.common.axes import ends
 from conveyor_pipeline.config.checks import faults_of_names
-from conveyor_pipeline.config.entries import by_methods, ends, resolve, values_of, variants
+from conveyor_pipeline.config.entries import by_methods, resolve, values_of, variants
 from conveyor_pipeline.paper.claims.statements import read_claims
 
 
@@ -51,7 +51,7 @@ def orbits(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 def regressions(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Values of B at which the pole of Eq. 13, at the amplitude -B, lies between the fitted amplitudes."""
     for name, entry in config["regressions"].items():
-        least, largest = entry.get("acceleration", (math.inf, math.inf))
+        least, largest = entry["acceleration"]
         for key, (low, high) in (("bounds.B", entry["bounds"]["B"]), ("valley", ends(entry["valley"]))):
             if low + least <= 0.0 <= high + largest:
                 yield (

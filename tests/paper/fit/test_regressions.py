@@ -44,18 +44,7 @@ def test_the_valley_has_its_bottom_at_the_true_parameter():
     assert valley.error.iloc[2] < 1e-20
 
 
-def test_without_an_interval_all_amplitudes_are_fitted():
-    """As for your own conveyor: the lowest amplitude bounds B, and the paper's A, B and C are not used."""
-    own = {name: value for name, value in SETTINGS.items() if name not in ("acceleration", "paper")}
-    data = heights()
-    data = data[data.is_critical & (data.z0 < 1.0)]
-    table = pd.DataFrame(regressions.make(data, own | {"bounds": SETTINGS["bounds"] | {"B": [-15.0, 0.0]}}))
-    assert set(table.fit) == {"pymoo", "least_squares", "valley"}
-    assert table.B.min() == pytest.approx(-data.acceleration.min(), rel=2e-3)
-    assert table.set_index("fit").loc["pymoo", "B"] == pytest.approx(TRUE["B"], rel=1e-4)
-
-
 def test_too_few_heights_are_not_fitted():
-    own = {name: value for name, value in SETTINGS.items() if name not in ("acceleration", "paper")}
-    assert pd.DataFrame(regressions.make(heights().head(3), own)).empty
-    assert pd.DataFrame(regressions.make(heights().head(0), own)).empty
+    fitted = heights().query("29 <= acceleration <= 47")
+    assert pd.DataFrame(regressions.make(fitted.head(3), SETTINGS)).empty
+    assert pd.DataFrame(regressions.make(fitted.head(0), SETTINGS)).empty

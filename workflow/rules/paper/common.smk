@@ -1,5 +1,6 @@
 # Functions that the rules of the paper share.
-from conveyor_pipeline.config.entries import count_points, count_shards
+from conveyor_pipeline.common.axes import count_points
+from conveyor_pipeline.config.entries import count_shards
 
 SHARDS = {name: count_shards(config, entry) for name, entry in config["sweeps"].items()}
 

@@ -39,7 +39,7 @@ def settings_of_conveyor(settings: dict, model: dict) -> dict:
 def make(models: dict[str, dict], settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
     """The shares at each throw number, for the conveyors of the config and of the examples (`models`, by name)."""
     conveyors = {"paper": {}} | models
-    throws = np.linspace(*(settings["throw_number"][key] for key in ("start", "stop", "num")))
+    throws = np.linspace(**settings["throw_number"])
     tables = []
     for name, model in conveyors.items():
         own = settings_of_conveyor(settings, model)

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from conveyor_pipeline.paper.figures.fig10 import ends_of
+from conveyor_pipeline.common.axes import ends
 from conveyor_pipeline.paper.motion.limits import RESOLUTION
 
 
@@ -15,7 +15,7 @@ def format_change(least: float, most: float) -> str:
 
 
 def numbers(*, converged: pd.DataFrame, fit: pd.DataFrame, euler: pd.DataFrame) -> dict:
-    lowest, highest = ends_of(converged.attrs["scan"])
+    lowest, *_, highest = ends(converged.attrs["scan"])
     values = {
         "found": converged.is_critical.any(),
         "fitted": len(fit) > 0,

@@ -4,13 +4,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from conveyor_pipeline.common.axes import ends
 from conveyor_pipeline.figures import style
 from conveyor_pipeline.paper.fit.hyperbola import Hyperbola, critical_height
-
-
-def ends_of(axis: list | dict) -> tuple[float, float]:
-    """The first and the last value of an axis of the config."""
-    return (axis["start"], axis["stop"]) if isinstance(axis, dict) else (axis[0], axis[-1])
 
 
 def plot(
@@ -34,8 +30,7 @@ def plot(
     for fits, name, colour, line, label in curves:
         if name not in set(fits.fit):
             continue
-        ends = fits.attrs.get("acceleration", (edge.acceleration.min(), edge.acceleration.max()))
-        fitted = np.linspace(*ends, 200)
+        fitted = np.linspace(*fits.attrs["acceleration"], 200)
         hyperbola = Hyperbola(*fits.set_index("fit").loc[name, ["A", "B", "C"]])
         axes.plot(fitted, 1e3 * critical_height(fitted, hyperbola), line, color=colour, linewidth=0.8, label=label)
     hollow = {"markerfacecolor": "none", "markeredgewidth": 0.6}
@@ -51,8 +46,8 @@ def plot(
     axes.set_ylabel("critical initial height $z_0$ in mm")
     nothing = edge.empty and back.empty
     if nothing:
-        axes.set_xlim(*ends_of(converged.attrs["axes"]["acceleration"]))
-        axes.set_ylim(top=1e3 * ends_of(converged.attrs["scan"])[1])
+        style.limit_x(axes, ends(converged.attrs["axes"]["acceleration"]))
+        axes.set_ylim(top=1e3 * ends(converged.attrs["scan"])[-1])
         change = "change the state of motion" if converged.empty else "end the first state"
         style.say(axes, f"no initial height was found\nto {change}")
     elif fit.empty:

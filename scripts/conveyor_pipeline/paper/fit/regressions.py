@@ -19,24 +19,16 @@ TABLES = {
 
 SEED = 1  # of pymoo's evolution strategy
 EVALUATIONS = 5000  # at most; the search ends by itself after about 1000
-BELOW = 0.999  # largest pole of Eq. 13 in units of the lowest amplitude
 
 
 def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
     """The columns of a table of regressions from a table of critical heights; no rows for too few amplitudes."""
-    low, high = settings.get("acceleration", (critical.acceleration.min(), critical.acceleration.max()))
-    data = critical[critical.is_critical & critical.acceleration.between(low, high)]
+    data = critical[critical.is_critical & critical.acceleration.between(*settings["acceleration"])]
     data = data.acceleration.to_numpy(), data.z0.to_numpy()
     names = [column.name for column in TABLES["regressions"]]
     if len(np.unique(data[0])) <= len(Hyperbola._fields):
         return {name: [] for name in names}
-    bounds = {name: tuple(limits) for name, limits in settings["bounds"].items()}
-    valley = dict(settings["valley"])
-    if "acceleration" not in settings:
-        # For a conveyor without known amplitudes, the pole of Eq. 13 must stay below the data.
-        valley["start"] = -BELOW * data[0].min()
-        bounds["B"] = valley["start"], bounds["B"][1]
-    valley = np.linspace(valley["start"], valley["stop"], int(valley["num"]))
+    bounds, valley = settings["bounds"], np.linspace(**settings["valley"])
     fits = {
         "pymoo": fit_hyperbola_by_pymoo(*data, bounds, SEED, EVALUATIONS),
         "least_squares": fit_hyperbola(*data, bounds["B"]),

@@ -15,7 +15,7 @@ FIT = {
 
 class Regression(TypedDict):
     critical: described(Name, "entry of `critical` that Eq. 13 is fitted to")
-    acceleration: NotRequired[interval(Acceleration, "amplitudes of the fitted data")]
+    acceleration: interval(Acceleration, "amplitudes of the fitted data")
     bounds: mapping("search intervals", {name: interval(item, f"bounds of {name}") for name, item in FIT.items()})
     valley: span(FIT["B"], "values of B along the valley")
     paper: NotRequired[mapping("the paper's parameters", FIT)]

@@ -32,7 +32,7 @@ def sample(run: Run, times: np.ndarray) -> dict[str, np.ndarray]:
 
 def make(settings: dict) -> dict[str, np.ndarray]:
     """The columns of a table of signals for the resolved `settings` of an entry of the config."""
-    times = np.linspace(settings["times"]["start"], settings["times"]["stop"], int(settings["times"]["num"]))
+    times = np.linspace(**settings["times"])
     axes, runs, states = simulate_entry(settings)
     labels = {**axes, "state": states.state, "period": states.period}
     samples = [sample(run, times) for run in runs]

@@ -1,12 +1,12 @@
 """Shards of sweeps: a trajectory for each point of a product of axes, and the state of motion that it leads to."""
 
-import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from conveyor import restart, sweep
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.common.axes import count_points
 from conveyor_pipeline.common.labelling import label_entry
 
 # Rows per block; one block takes a few hundred MB.
@@ -23,7 +23,7 @@ TABLES = {
 
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> Iterator[dict[str, np.ndarray]]:
     """The `columns` of a table of sweeps, in blocks of rows; the settings of a shard have its `rows`."""
-    first, end = settings.get("rows", (0, math.prod(map(grid.count_values, settings["axes"].values()))))
+    first, end = settings.get("rows", (0, count_points(settings["axes"])))
     blocks = range(first, end, BLOCK)
     for number, begin in enumerate(blocks, start=1):
         label = progress and (f"{progress} ({number} of {len(blocks)})" if len(blocks) > 1 else progress)

@@ -23,6 +23,7 @@ from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from conveyor.methods import modes
 from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.common.axes import count_values
 
 TABLES = {
     "map_check": (
@@ -160,7 +161,7 @@ def make(
     chosen, parameters = [], []
     for name, table in zip(settings["maps"], maps, strict=True):
         axes = table.attrs["axes"]
-        near = is_near_boundary(table.state.to_numpy().reshape([grid.count_values(axis) for axis in axes.values()]))
+        near = is_near_boundary(table.state.to_numpy().reshape([count_values(axis) for axis in axes.values()]))
         rows = draw_rows(near.ravel(), settings["points"], random)
         label, near_boundary = table.state.to_numpy()[rows], near.ravel()[rows]
         chosen.append(pd.DataFrame({"map": name, "row": rows, "near_boundary": near_boundary, "label": label}))
