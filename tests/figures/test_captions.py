@@ -22,15 +22,16 @@ FIGURES = CONFIG["figures"] | CONFIG["figures_on_request"]
 
 
 @pytest.mark.parametrize("name", FIGURES)
-def test_no_number_of_a_caption_is_typed(name):
+def test_no_number_of_a_title_or_caption_is_typed(name):
     assert typed(template_of(name)) == []
+    assert title_of(name) and "\n" not in title_of(name)
 
 
 def test_a_missing_number_is_an_error():
     with pytest.raises(UndefinedError, match="speed") as error:
-        captions.caption("at {{ speed }} m/s", "fig01", {}, {})
+        captions.make("fig01", {}, True, "title\n\nat {{ speed }} m/s")
     assert error.value.__notes__ == [f"in {ROOT / 'scripts/conveyor_pipeline/paper/figures/fig01.rst'}"]
-    assert captions.caption("no number\n", "fig01", {}, {}) == "no number\n"
+    assert captions.make("fig01", {}, True, "title\n\nno number\n") == "no number\n"
 
 
 @pytest.mark.parametrize(
@@ -44,7 +45,7 @@ def test_a_missing_number_is_an_error():
 def test_captions_name_harmonics_of_the_plate(orders, end):
     table = pd.DataFrame()
     table.attrs = {"model": {"harmonics": [{"order": order} for order in orders]}}
-    text = captions.caption("Some runs.\n", "fig01", {"runs": table}, {})
+    text = captions.make("fig01", {}, True, "title\n\nSome runs.\n", runs=table)
     assert text.startswith("Some runs.") and text.endswith(f"{end}\n")
     assert ("harmonic" in text) == bool(orders)
 
@@ -53,12 +54,6 @@ def test_a_caption_without_numbers_of_its_own_imports_no_numba():
     """There is one job per caption, and Numba would take most of its time."""
     code = "import sys, conveyor_pipeline.make, conveyor_pipeline.figures.captions; sys.exit('numba' in sys.modules)"
     subprocess.run([sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": str(ROOT / "scripts")}, check=True)
-
-
-def test_titles_have_no_typed_number():
-    for name in FIGURES:
-        title = title_of(name)
-        assert typed(title) == [] and title and "\n" not in title, name
 
 
 def test_plateau_and_exponent_of_fig_22():
@@ -136,27 +131,24 @@ def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
     columns |= {"state_below": "first", "state_above": "second"}
     converged, euler = (pd.DataFrame(columns | {"acceleration": [a]}) for a in (30.0, 40.0))
     converged.attrs = {"scan": {"start": 0.0, "stop": 5e-4, "num": 9}}
-    template = template_of("fig10")
     tables = {"converged": converged, "euler": euler, "fit": converged}
-    assert "at no common amplitude" in captions.caption(template, "fig10", tables, {})
+    assert "at no common amplitude" in caption("fig10", **tables)
     back = pd.concat([converged, converged.assign(z0=2e-4, is_critical=False, state_above="first")])
     back.attrs = converged.attrs
     for table, returns in ((converged, False), (back, True), (back.assign(state_above="chaos"), False)):
-        assert ("Triangles" in captions.caption(template, "fig10", tables | {"converged": table}, {})) == returns
+        assert ("Triangles" in caption("fig10", **tables | {"converged": table})) == returns
     many = back.assign(status="between two heights of the scan")
-    assert "known to one step of the scan" in captions.caption(template, "fig10", tables | {"converged": many}, {})
+    assert "known to one step of the scan" in caption("fig10", **tables | {"converged": many})
     open_ = back.assign(state_above="undecided", acceleration=[30.0, 40.0])
-    text = captions.caption(template, "fig10", tables | {"converged": open_}, {})
-    assert "At 2 amplitudes, the search ended before the state of motion was known for all heights." in " ".join(
-        text.split()
-    )
+    text = caption("fig10", **tables | {"converged": open_})
+    assert "At 2 amplitudes, the search ended before the state of motion was known for all heights." in text
     tables |= {"converged": converged[:0], "fit": converged[:0]}
     tables["converged"].attrs = converged.attrs
-    text = captions.caption(template, "fig10", tables, {}, paper=False)
+    text = caption("fig10", paper=False, **tables)
     assert "Up to 0.5 mm, no initial height was found to change the state of motion at any of these amplitudes." in text
     tables["converged"] = converged.assign(is_critical=False)
     tables["converged"].attrs = converged.attrs
-    text = captions.caption(template, "fig10", tables, {}, paper=False)
+    text = caption("fig10", paper=False, **tables)
     assert "Up to 0.5 mm, no initial height was found to end the first state at any of these amplitudes." in text
 
 
@@ -166,9 +158,8 @@ def test_a_track_that_is_too_steep_is_named():
     for inclination, static, steep in ((0.2, None, False), (0.32, None, True), (0.32, 0.4, True), (-0.5, 0.4, True)):
         model = {"friction": 0.3, "inclination": inclination} | ({"static_friction": static} if static else {})
         table.attrs |= {"model": model, "duration": 1.0, "step": 1e-6}
-        template = template_of("fig03")
-        text = captions.caption(template, "fig03", {"converged": table, "euler": table}, {}, paper=False)
-        assert ("slides away faster and faster" in " ".join(text.split())) == steep
+        text = caption("fig03", paper=False, converged=table, euler=table)
+        assert ("slides away faster and faster" in text) == steep
 
 
 def test_states_change_at_a_critical_height_if_the_first_state_ends():

@@ -2,8 +2,8 @@
 
 import pandas as pd
 
+from conveyor_pipeline.figures.captions import name_state
 from conveyor_pipeline.figures.style import STATE_COLOURS
-from conveyor_pipeline.paper.caption_numbers.fig12 import name_state
 
 
 def numbers(*, converged: pd.DataFrame) -> dict[str, list[str]]:

@@ -1,5 +1,0 @@
-"""Numbers of the caption of the figure fig13."""
-
-from conveyor_pipeline.paper.caption_numbers.fig12 import numbers
-
-__all__ = ["numbers"]
