@@ -1,34 +1,23 @@
 """Parameters from measured velocities: their posterior, and whether the model explains the measurements."""
 
-import math
-import sys
-import time
-
 import numpy as np
-from scipy.stats import qmc
 
 from conveyor import RANGES, UNITS
 from conveyor.progress import progress_bar
 from conveyor_pipeline.common import csv_table, fields
-from conveyor_pipeline.machine.calibration.effort import MOST_SEARCHES, SEARCHES, sizes_of
+from conveyor_pipeline.machine.calibration.effort import SEARCHES, sizes_of
 from conveyor_pipeline.machine.calibration.inference import (
     DETERMINED,
     NOT_CONVERGED,
     NOT_DETERMINED,
     OPEN,
-    USUAL_ROUNDS,
-    Data,
     data_of,
     draw,
     has_converged,
-    most_rounds,
     runs_of_search,
-    runs_of_steps,
     search,
-    shortened,
     summarize_parameters,
 )
-from conveyor_pipeline.machine.calibration.likelihood import velocities
 from conveyor_pipeline.machine.calibration.measurements import (
     CALIBRATED,
     EXAMPLE,
@@ -42,14 +31,9 @@ from conveyor_pipeline.machine.calibration.model_check import (
     compare_alternatives,
     measured_columns,
     runs_of_check,
-    searches_of_alternatives,
+    settings_of_alternatives,
 )
-from conveyor_pipeline.machine.calibration.search_space import bounds_of, values_at
-
-TIMED, TIMED_PARTS = 24, 4  # sets of parameters, and parts of each, whose time is measured
-# How much longer a run of a search takes than a timed one: near the posterior more motions are irregular, and the
-# search itself takes time.
-LONGER = 1.3
+from conveyor_pipeline.machine.calibration.search_space import values_at
 
 TABLES = {
     "parameters": (
@@ -113,11 +97,8 @@ def calibrate(
 ) -> dict[str, dict]:
     """The columns of the tables of parameters, of samples, of the fit and of alternatives, from measurements."""
     data = data_of(measured, settings["model"])
-    searches = SEARCHES + searches_of_alternatives(data, settings)
+    searches = SEARCHES + len(settings_of_alternatives(data, settings))
     runs = searches * runs_of_search(data, settings) + runs_of_check(data, settings)
-    if progress:
-        usual, most = expected_minutes(data, settings, threads)
-        print(f"{progress}: usually about {usual} min of processor time, at most {most} min", file=sys.stderr)
     with progress_bar(total=runs, label=progress, unit="runs") as bar:
         posterior = search(data, settings, threads=threads, bar=bar)
         converged = has_converged(posterior, settings)
@@ -138,33 +119,6 @@ def calibrate(
         "fit": fit,
         "alternatives": fields.columns(alternatives, TABLES["alternatives"]),
     }
-
-
-def expected_minutes(data: Data, settings: dict, threads: int) -> tuple[int, int]:
-    """Processor time (min) that the calibration usually takes, and that it takes at most, from a few timed runs."""
-    seconds = seconds_per_run(data, settings, threads)
-    others = searches_of_alternatives(data, settings)
-
-    def minutes(searches: int, rounds: tuple[int, int]) -> int:
-        search = LONGER * np.sum(seconds * runs_of_steps(data, settings, rounds))
-        check = seconds[-1] * runs_of_check(data, settings)
-        return math.ceil(((searches + others) * search + check) / 60.0)
-
-    return minutes(SEARCHES, USUAL_ROUNDS), minutes(MOST_SEARCHES, most_rounds(settings))
-
-
-def seconds_per_run(data: Data, settings: dict, threads: int) -> np.ndarray:
-    """Processor time (s) of a run in each of the two steps of a search, for a few parameters within the bounds."""
-    low, high = bounds_of(settings)
-    points = qmc.scale(qmc.Halton(len(low), rng=settings["seed"]).random(TIMED), low, high)
-    options = {"parts": TIMED_PARTS, "seed": settings["seed"], "threads": threads}
-    velocities(values_at(points[:1], settings), data.conditions, settings, **options)  # compiles the solver
-    seconds = []
-    for conditions in (shortened(data.conditions), data.conditions):
-        begin = time.process_time()
-        followed = velocities(values_at(points, settings), conditions, settings, **options)
-        seconds.append((time.process_time() - begin) / followed.size)
-    return np.array(seconds)
 
 
 def make(measurements: str, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, dict]:

@@ -77,21 +77,11 @@ def log_factors(simulated: np.ndarray, data: Data, settings: dict, inflations: t
     return np.array([log_densities(*arguments, inflation) for inflation in inflations])
 
 
-def most_rounds(settings: dict) -> tuple[int, int]:
-    """The largest numbers of rounds of the two steps of a search, after the first round of each."""
-    return settings["rough_rounds"], settings["rounds"]
-
-
-def runs_of_steps(data: Data, settings: dict, rounds: tuple[int, int]) -> np.ndarray:
-    """The numbers of runs of the two steps of one search (see `search_once`) after some rounds of each."""
-    rough, fine = np.minimum(rounds, most_rounds(settings)) * settings["points"]
-    sets = np.array([settings["first"] + rough, settings["points"] + fine])
-    return sets * [settings["rough_parts"], settings["parts"]] * len(data.conditions.rows)
-
-
 def runs_of_search(data: Data, settings: dict) -> int:
-    """The usual number of runs of one search."""
-    return int(runs_of_steps(data, settings, USUAL_ROUNDS).sum())
+    """The usual number of runs of one search (see `search_once`)."""
+    rough, fine = np.minimum(USUAL_ROUNDS, (settings["rough_rounds"], settings["rounds"])) * settings["points"]
+    runs = (settings["first"] + rough) * settings["rough_parts"] + (settings["points"] + fine) * settings["parts"]
+    return int(runs) * len(data.conditions.rows)
 
 
 def shortened(conditions: Conditions) -> Conditions:
@@ -134,7 +124,8 @@ def search_once(data: Data, settings: dict, number: int, near: Near, threads: in
             bar.update(simulated.size)
             return log_factors(simulated, data, settings, inflations)
 
-        sizes = {"first": first, "points": settings["points"], "rounds": most_rounds(settings)[fine], "enough": enough}
+        most = settings["rounds" if fine else "rough_rounds"]
+        sizes = {"first": first, "points": settings["points"], "rounds": most, "enough": enough}
         return sample(follow, bounds_of(settings), **sizes, seed=[settings["seed"], number, fine], near=near)
 
     begun = bar.n

@@ -16,7 +16,7 @@ from conveyor import replace_parameters, sample_runs
 from conveyor.elementary import exp, log
 from conveyor.packing import INITIAL_CONDITION, plate_heights, plate_peaks
 from conveyor_pipeline.common import grid
-from conveyor_pipeline.machine.calibration.measurements import INITIAL, Measurement
+from conveyor_pipeline.machine.calibration.measurements import Measurement
 
 TOLERANCE = 1e-5  # per contact step: errors of velocities stay far below those of a measurement
 # The density around a part's velocity is as wide as the distance to its neighbour of this rank, times a factor, but at
@@ -57,7 +57,7 @@ def conditions_at(
     """
     rows = []
     for acceleration, own in zip(accelerations, changed, strict=True):
-        known = {name: value for name, value in own.items() if name not in INITIAL}
+        known = {name: value for name, value in own.items() if name not in INITIAL_CONDITION}
         row = grid.row_of({**model, **known, "acceleration": acceleration})
         for name in INITIAL_CONDITION:
             row[name] = own.get(name, math.nan)

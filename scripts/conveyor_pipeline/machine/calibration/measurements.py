@@ -21,8 +21,6 @@ COLUMNS = {
 }
 REQUIRED = ("acceleration", "velocity")
 POSITIVE = ("acceleration", "sd", "duration")  # must be above zero
-# Initial conditions; a missing or empty value means that it was not known.
-INITIAL = ("z0", "vz0", "psi0")
 DEFAULTS = {"duration": 1.0, "before": 1.0}  # s
 # Parameters that a calibration can search. A row cannot have its own value of a searched parameter.
 CALIBRATED = ("friction", "damping", "stiffness", "angle", "inclination", "phase_shift", "exponent")
@@ -50,7 +48,7 @@ class Measurement(NamedTuple):
     sd: float | None  # m/s
     duration: float  # s
     before: float  # s
-    changed: dict[str, float]  # parameters of the model and initial conditions of this row
+    changed: dict[str, float]  # parameters of the model and initial conditions of this row; the others are not known
 
 
 def first_comments(text: str) -> list[str]:

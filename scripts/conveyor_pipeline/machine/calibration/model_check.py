@@ -36,7 +36,6 @@ from conveyor_pipeline.machine.calibration.likelihood import deviations, log_den
 from conveyor_pipeline.machine.calibration.measurements import Measurement
 from conveyor_pipeline.machine.calibration.search_space import values_at
 
-SEARCHES_OF_ALTERNATIVE = (1, 1)  # an evidence needs no interval, and hardly differs between searches
 DECISIVE = (
     20.0  # Bayes factor from which the model without an alternative is rejected ("strong", Kass and Raftery 1995)
 )
@@ -152,11 +151,6 @@ def settings_of_alternatives(data: Data, settings: dict) -> dict[str, dict]:
     }
 
 
-def searches_of_alternatives(data: Data, settings: dict) -> int:
-    """The largest number of searches with one more parameter."""
-    return SEARCHES_OF_ALTERNATIVE[1] * len(settings_of_alternatives(data, settings))
-
-
 def compare_alternatives(
     posterior: Sample, data: Data, settings: dict, *, threads: int = 1, bar: tqdm | None = None
 ) -> list[dict]:
@@ -169,7 +163,8 @@ def compare_alternatives(
         middle = centre(posterior.points, posterior.weights)
         known = middle + INFLATIONS[ROUGH] * (posterior.points - middle)
         near = np.column_stack([known, random.uniform(*own["ranges"][name], len(known))]), posterior.weights
-        other = search(data, own, near=near, searches=SEARCHES_OF_ALTERNATIVE, threads=threads, bar=bar)
+        # One search: an evidence needs no interval, and hardly differs between searches.
+        other = search(data, own, near=near, searches=(1, 1), threads=threads, bar=bar)
         row = {"parameter": name, "unit": UNITS[name], "effective": other.size}
         row |= {"value": math.nan, "log_bayes_factor": math.nan, "preferred": False}
         if other.size >= EFFECTIVE_OF_EVIDENCE:

@@ -87,20 +87,19 @@ def predict(
     fit: pd.DataFrame,
     settings: dict,
     *,
-    beyond: float = BEYOND,
     threads: int = 1,
     progress: str | None = None,
 ) -> dict[str, dict]:
-    """Both tables, with amplitudes up to a relative distance `beyond` the measured ones; no rows without samples."""
+    """Both tables, with amplitudes up to a relative distance BEYOND the measured ones; no rows without samples."""
     if samples.empty:
         return {name: fields.columns([], schema) for name, schema in TABLES.items()}
     low, high = fit.acceleration.min(), fit.acceleration.max()
     between = np.unique(np.linspace(low, high, settings["amplitudes"]))
     # Amplitudes that are nearly equal would otherwise ask for any number of further ones.
-    step = max((high - low) / (settings["amplitudes"] - 1), beyond * high / settings["amplitudes"])
-    count = math.floor(beyond * high / step)
+    step = max((high - low) / (settings["amplitudes"] - 1), BEYOND * high / settings["amplitudes"])
+    count = math.floor(BEYOND * high / step)
     outside = np.concatenate([low - step * np.arange(1, count + 1), high + step * np.arange(1, count + 1)])
-    amplitudes = np.concatenate([between, outside[outside > (1.0 - beyond) * low]])
+    amplitudes = np.concatenate([between, outside[outside > (1.0 - BEYOND) * low]])
     conditions = conditions_at(
         amplitudes,
         [{}] * len(amplitudes),
