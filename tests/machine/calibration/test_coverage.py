@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 from project import si_config
+from synthetic import csv_text, measure
 
 from conveyor.analysis.contact_groups import contact_of_groups
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.config.tables import settings_of
 from conveyor_pipeline.machine.calibration.calibrate import make
-from conveyor_pipeline.machine.calibration.synthetic import csv_text, measure
 
 PARAMETERS = ("friction", "damping", "stiffness")
 # Ranges of the random conveyors; all but angle and friction on a logarithmic scale.

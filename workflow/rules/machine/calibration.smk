@@ -1,5 +1,4 @@
 # Parameters of a conveyor from measured velocities. Only a config with `calibration.measurements` has these targets.
-# The measurements of the example are made on request.
 CALIBRATION_FILES = [result("calibration.md"), figure_file("calibration")] if MEASURED["calibration"] else []
 
 
@@ -66,18 +65,3 @@ rule calibrated:
         **stage("conveyor_pipeline.machine.calibration.overlay"),
     script:
         "../../../scripts/conveyor_pipeline/make.py"
-
-
-# Not for a config with measurements, which reads this file at its start.
-if not MEASURED["calibration"]:
-
-    rule measured_example:
-        """Synthetic measurements for the example."""
-        output:
-            measurements="config/examples/measured.csv",
-        log:
-            log_file("calibration/measured_example"),
-        params:
-            **stage("conveyor_pipeline.machine.calibration.synthetic"),
-        script:
-            "../../../scripts/conveyor_pipeline/make.py"

@@ -1,5 +1,4 @@
-# The drive from the file of an accelerometer. Only a config with `excitation.measured` has these targets. The file of the example is
-# made on request.
+# The drive from the file of an accelerometer. Only a config with `excitation.measured` has these targets.
 from conveyor_pipeline.machine.excitation.settings import EXCITATION_TABLES
 
 EXCITATION_FILES = [result("excitation.md"), result("measured_drive.yaml"), figure_file("excitation")]
@@ -82,18 +81,3 @@ rule measured_drive:
         **stage("conveyor_pipeline.machine.excitation.overlay"),
     script:
         "../../../scripts/conveyor_pipeline/make.py"
-
-
-# Not for a config with an accelerometer file, which reads this file at its start.
-if not MEASURED["excitation"]:
-
-    rule accelerometer_example:
-        """A synthetic accelerometer file for the example."""
-        output:
-            recording="config/examples/accelerometer.csv",
-        log:
-            log_file("excitation/accelerometer_example"),
-        params:
-            **stage("conveyor_pipeline.machine.excitation.synthetic"),
-        script:
-            "../../../scripts/conveyor_pipeline/make.py"

@@ -13,12 +13,6 @@ from conveyor_pipeline.machine.calibration.measurements import DEFAULTS
 
 TOLERANCE = 1e-9
 FORMAT = ".4g"
-# The measurements of config/examples/measured.yaml: the conveyor and the part, with the contact that a calibration
-# should find; lowest and highest amplitude (m/s²), number of amplitudes, parts at each of them, noise, and seed; the
-# box of initial heights (m), velocities (m/s) and phases (rad).
-EXAMPLE = {"frequency": 60.0, "angle": 0.35, "mass": 2.0e-3, "friction": 0.24, "damping": 0.7, "stiffness": 4.0e5}
-RANGE, AMPLITUDES, PARTS, NOISE, SEED = (26.0, 80.0), 10, 3, 0.02, 7
-BOX = {"height": (0.0, 0.5e-3), "vz0": (-0.2, 0.2), "psi0": (0.0, 2.0 * np.pi)}
 
 
 def true_velocity(
@@ -53,12 +47,3 @@ def csv_text(rows: Sequence[tuple[float, float]], comment: str, **others: float)
     for acceleration, velocity in rows:
         lines.append(",".join([f"{acceleration:.5g}", f"{velocity:{FORMAT}}", *map(str, others.values())]))
     return "\n".join([*lines, ""])
-
-
-def make() -> str:
-    """The file of measurements of the example."""
-    random = np.random.default_rng(SEED)
-    accelerations = np.repeat(np.linspace(*RANGE, AMPLITUDES), PARTS)
-    rows = measure(EXAMPLE, accelerations, BOX, NOISE, random)
-    made_by = "snakemake --force config/examples/measured.csv"
-    return csv_text(rows, f"Synthetic, not measured: made by `{made_by}`, with noise")
