@@ -57,8 +57,6 @@ rule provenance:
         provenance=result("provenance.json"),
     log:
         log_file("builds/provenance"),
-    benchmark:
-        benchmark_file("builds/provenance")
     threads: CORES
     params:
         **stage("conveyor_pipeline.common.provenance"),
