@@ -275,3 +275,4 @@ class Followed(TypedDict):
     ]
     tolerance: NotRequired[Tolerance]
     step: NotRequired[Step]
+    duration: NotRequired[Duration]

@@ -72,25 +72,6 @@ def test_a_regular_motion_has_no_fluctuations():
     assert found.velocity == pytest.approx(0.05)
 
 
-def test_two_runs_are_needed():
-    with pytest.raises(ValueError, match="n >= 2"):
-        random_walk(np.ones((1, 100)), PERIOD)
-
-
-@pytest.mark.parametrize(
-    ("displacements", "period", "name"),
-    [
-        (np.where(np.arange(300).reshape(3, 100) == 7, np.nan, 1.0), PERIOD, "displacements"),
-        (np.zeros((3, 0)), PERIOD, "displacements"),
-        (np.ones((3, 100)), 0.0, "period"),
-        (np.ones((3, 100)), -PERIOD, "period"),
-    ],
-)
-def test_values_that_cannot_be_used_are_named(displacements, period, name):
-    with pytest.raises(ValueError, match=f"^{name}"):
-        random_walk(displacements, period)
-
-
 def test_relative_spread_of_random_walks():
     """First passages of simulated walks, between the quantiles at one standard deviation."""
     steps = 1e-3 + 3e-3 * np.random.default_rng(2).standard_normal((2000, 4000))

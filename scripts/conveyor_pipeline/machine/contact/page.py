@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor import UNITS, restitution
+from conveyor import restitution
 from conveyor.materials import UNCERTAINTY, material
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.contact.derive import HERTZ, NAMED, drop_speed, moduli_of, on_level_plate
@@ -49,12 +49,10 @@ def make(template: str, variants: pd.DataFrame, advice: pd.DataFrame) -> str:
     values = {
         "contact": own,
         "model": model,
-        "units": UNITS,
         "is_hertz": model["exponent"] == HERTZ,
         "materials": {name: describe(own[name]) for name in NAMED} if own.get("radius") is not None else {},
         "stiffness_range": stiffness_range(settings),
         "contacts": contacts(settings),
-        "drop_speed": drop,
         "rest": rest,
         "depths": depths,
         "restitutions": [

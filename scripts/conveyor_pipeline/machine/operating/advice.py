@@ -40,7 +40,6 @@ TABLES = {
         fields.number("velocity_worst", "m/s", "smallest 5 % quantile of the velocity within the range"),
         fields.number("worst", "m/s²", "amplitude with this quantile"),
         fields.number("spread_worst", "1", "largest relative spread within the range"),
-        fields.number("back_worst", "1", "largest share of parts that have moved back within the range"),
         fields.number("held_low", "m/s²", f"lowest amplitude down to which {KEPT:g} of the 5 % quantile is kept"),
         fields.number("held_high", "m/s²", "the highest one; both are null if the config states no supply"),
         fields.text("states", "states of motion at the nearest amplitude of the table of shares, with their shares"),
@@ -263,7 +262,6 @@ def make(
             "velocity_worst": within.velocity_05.min(),
             "worst": within.acceleration[within.velocity_05.idxmin()],
             "spread_worst": within.spread.max(),
-            "back_worst": within.back.max(),
             "held_low": held[0],
             "held_high": held[1],
         }

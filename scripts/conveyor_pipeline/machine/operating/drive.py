@@ -154,7 +154,7 @@ def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np
     if within.any():
         outcomes = evaluate_few(designs[within], settings)
         outcome.loc[within, outcomes.columns] = outcomes.to_numpy()
-    objectives = np.column_stack([-outcome.velocity, outcome.impact_speed, peaks.acceleration])
+    objectives = objectives_of(outcome, peaks.acceleration)
     return np.where(np.isnan(objectives), np.inf, objectives), constraints(outcome, settings)
 
 

@@ -10,8 +10,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from conveyor.arguments import LARGEST_COORDINATE, check_array, check_time
-
 # Largest correlation of the displacements in neighbouring windows that counts as none, besides two standard errors.
 DECAYED = 0.05
 # The window is this many times longer than the shortest one without correlations, because they decay with its length.
@@ -69,11 +67,9 @@ def uncorrelated_window(fluctuations: np.ndarray) -> int:
 def random_walk(displacements: np.ndarray, period: float) -> RandomWalk:
     """The drift and the diffusion coefficient of a motion.
 
-    ValueError for fewer than two runs, and for values that cannot be used.
-
     Parameters
     ----------
-    displacements : along the track in each excitation cycle, m, of n independent runs over k cycles, shape (n, k)
+    displacements : along the track in each excitation cycle, m, of n > 1 independent runs over k cycles, shape (n, k)
     period : of the excitation, s
 
     Returns
@@ -89,10 +85,6 @@ def random_walk(displacements: np.ndarray, period: float) -> RandomWalk:
     >>> abs(walk.diffusion - 0.5 * 1e-4**2 / 0.02) < 3.0 * walk.diffusion_stderr
     True
     """
-    displacements = check_array("displacements", displacements, -LARGEST_COORDINATE, LARGEST_COORDINATE, "m")
-    period = check_time("period", period)
-    if displacements.ndim != 2 or len(displacements) < 2:
-        raise ValueError(f"displacements must have the shape (n, k) with n >= 2, got {displacements.shape}")
     of_run = displacements.mean(axis=1) / period
     mean = displacements.mean()
     walk = RandomWalk(mean / period, standard_error(of_run), np.nan, np.nan, 0, CORRELATED)

@@ -41,7 +41,6 @@ COLUMNS = (
     fields.number("best_high", "m/s", "largest velocity of the fastest motion"),
     fields.number("best_share_low", "1", "smallest share of initial conditions that reach the largest velocity"),
     fields.number("best_share_high", "1", "largest share of initial conditions that reach the largest velocity"),
-    fields.number("best_share_stderr", "1", "largest standard error of these shares"),
 )
 
 
@@ -129,7 +128,6 @@ def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame
                 "best_high": part.best.max(),
                 "best_share_low": part.best_share.min(),
                 "best_share_high": part.best_share.max(),
-                "best_share_stderr": part.stderr.max(),
             }
         )
     return pd.DataFrame(rows)
@@ -139,7 +137,7 @@ def join(rows: pd.DataFrame) -> dict:
     """One interval from neighbouring ones, with the states and the range of velocities of all of them."""
     states = dict.fromkeys(", ".join(rows.states).split(", "))  # each once, in this order
     least = rows[["begin", "velocity_low", "best_low", "best_share_low"]].min(skipna=False)
-    most = rows[["end", "step", "best_high", "best_share_high", "best_share_stderr"]].max(skipna=False)
+    most = rows[["end", "step", "best_high", "best_share_high"]].max(skipna=False)
     return {**least, **most, "states": ", ".join(states), "amplitudes": rows.amplitudes.sum(), "regime": CHANGING}
 
 

@@ -6,7 +6,6 @@ from typing_extensions import TypedDict
 
 from conveyor_pipeline.common.settings import (
     Axes,
-    Duration,
     Followed,
     HeightNumber,
     Model,
@@ -19,12 +18,7 @@ from conveyor_pipeline.common.settings import (
 
 
 class Signal(Followed):
-    duration: NotRequired[Duration]
     times: span(number("time", "s", ge=0, le=1e6), "times of the samples")
-
-
-class Spectrum(Followed):
-    duration: NotRequired[Duration]
 
 
 class Impacts(TypedDict):
@@ -33,13 +27,12 @@ class Impacts(TypedDict):
 
 
 class Critical(Followed):
-    duration: NotRequired[Duration]
     scan: axis(HeightNumber, "initial heights that are scanned for changes", least=2, check=check_ascending)
 
 
 SECTIONS = {
     "signals": entries(Signal, "motion of part and plate at given times"),
-    "spectra": entries(Spectrum, "amplitude spectra of the velocities"),
+    "spectra": entries(Followed, "amplitude spectra of the velocities"),
     "impacts": entries(Impacts, "first impacts of parts that start in the air"),
     "critical": entries(Critical, "initial heights at which the state of motion changes"),
 }

@@ -2,11 +2,10 @@
 
 from typing import NotRequired
 
-from conveyor_pipeline.common.settings import Duration, Followed, entries, word
+from conveyor_pipeline.common.settings import Followed, entries, word
 
 
 class Sweep(Followed):
-    duration: NotRequired[Duration]
     needs: NotRequired[word("vertical leaves out the feeding velocity, which is faster", "feeding", "vertical")]
 
 
