@@ -27,6 +27,15 @@ WRONG = [
         {"clean_drive": {"shares": [0.02, 0.1]}},
         "clean_drive.shares = [0.02, 0.1] lacks 0.05, the share of the statement on chaos; add it",
     ),
+    ({"advice": {"part_length": 5.0}}, "advice.part_length = 5.0 m is longer than the track, transit.length = 0.5 m"),
+    (
+        {"body": {"length": 5, "height": 2, "tilt": 0.1}},
+        "body.length = 5.0 m is longer than the track, transit.length = 0.5 m; write 5 mm",
+    ),
+    (
+        {"transit": {"length": 500}},
+        "transit.length = 500.0 m is too long for transit.longest = 20.0 s, because the plate moves at most at 0.4",
+    ),
     ({"parts": {"calibrated": True}}, "parts.calibrated needs measurements; name the config with"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),

@@ -81,7 +81,7 @@ def test_values_in_si_units_replace_dimensionless_ones(given, expected):
             "operating.height is given in SI",
         ),
         ({"transit": {"dimensionless": {"acceleration": [1.0]}}}, "transit.dimensionless is an unknown key"),
-        ({"operating": {"acceleration": {"start": 200.0}}}, "is reversed: start is above stop"),
+        ({"operating": {"acceleration": {"stop": 2.0}}}, "is reversed: start is above stop; give both"),
         ({"operating": {"dimensionless": {"acceleration": {"start": 4.0}}}}, "is reversed: start is above stop"),
         ({"model": {"angle": 0.0}}, "model.angle = 0.0 means that no amplitude can lift a part"),
     ],

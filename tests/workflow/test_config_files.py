@@ -25,10 +25,13 @@ from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.files import DEFAULT_FILES, read
 
 FAULTS = [
-    ("model: {mass: 0.1}\nsolver: {}\nmodel: {angle: 0.1}\n", ':3: is not valid YAML: found duplicate key "model"'),
+    (
+        "model: {mass: 0.1}\nsolver: {}\nmodel: {angle: 0.1}\n",
+        ':3: is not valid YAML: found duplicate key "model"; merge both',
+    ),
     ("sweeps:\n  mine:\n    axes: {z0: [0.0], z0: [1.0]}\n", ':3: is not valid YAML: found duplicate key "z0"'),
     ("model: {mass: 0.1\n", ":2: is not valid YAML: did not find expected"),
-    ("model:\n\tmass: 0.1\n", ":2: is not valid YAML: found character that cannot start any token"),
+    ("model:\n\tmass: 0.1\n", ":2: is not valid YAML: found character that cannot start any token; write spaces"),
     ("model: {mass: !gram 3}", ":1: is not valid YAML: could not determine a constructor for the tag '!gram'"),
     ("model: {mass: !!bool maybe}", ": is not valid YAML: "),
     ("model: {mass: 2001-13-45}", ": is not valid YAML: month must be in 1..12"),

@@ -151,3 +151,7 @@ def test_a_valid_config_has_no_errors(overlay):
 @pytest.mark.parametrize("config", [None, [], "model", 3], ids=repr)
 def test_a_section_that_is_not_a_mapping_is_reported(config):
     assert problems(config) == [f"config = {config!r} should be a valid mapping"]
+
+
+def test_a_list_in_place_of_keys_is_reported():
+    assert problems(merged(CONFIG, {"model": [1, 2]})) == ["model = [1, 2] should have keys below it"]

@@ -131,7 +131,7 @@ def check_span(values: dict) -> dict:
         return values
     start, stop, num = values["start"], values["stop"], values["num"]
     if start > stop:
-        raise ValueError("is reversed: start is above stop; exchange start and stop")
+        raise ValueError("is reversed: start is above stop; give both, the smaller one as start")
     if num == 1 and start != stop:
         raise ValueError(f"has num: 1 for two ends; give more values, or a list such as [{start!r}]")
     if start == stop and num > 1:

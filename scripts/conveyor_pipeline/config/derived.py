@@ -6,6 +6,7 @@ Such a function takes a valid config and returns parameters by name; its ValueEr
 import math
 from collections.abc import Iterator
 
+from conveyor import UNITS
 from conveyor_pipeline.config.stages import declared
 
 DERIVED = declared("DERIVED")
@@ -36,4 +37,5 @@ def faults_of_derived(config: dict, defaults: dict, stated: dict) -> Iterator[st
             is_given = name in (stated.get("model") or {}) or own != defaults["model"][name]
             if is_given and not math.isclose(own, value, rel_tol=SAME):
                 remedy = f"remove it, or what gives it in the section {section}"
-                yield f"model.{name} = {own!r} contradicts the section {section}, which gives {value!r}; {remedy}"
+                value = f"{value!r} {UNITS[name]}".replace("^p", f"^{config['model']['exponent']:g}")
+                yield f"model.{name} = {own!r} contradicts the section {section}, which gives {value}; {remedy}"

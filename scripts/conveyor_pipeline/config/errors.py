@@ -82,8 +82,12 @@ def explain(error: dict, config: Any) -> str:
     if kind == "string_pattern_mismatch":
         (expected,) = {one["patternErrorMessage"] for one in options_of(schema) if "patternErrorMessage" in one}
         return f"{shown} should be {expected}"
-    if kind == "dict_type" and value is None and path:
-        return f"{key} is empty; give keys below it, or delete it"
+    if kind == "dict_type" and path:
+        return (
+            f"{key} is empty; give keys below it, or delete it"
+            if value is None
+            else f"{shown} should have keys below it"
+        )
     if kind == "string_type" and isinstance(value, int | float):
         return f"{shown} is a number, not text; put it in quotes"
     # "Input should be …", "List should have …"

@@ -37,7 +37,11 @@ def read(file: str | Path) -> dict:
     except (YAMLError, LookupError, ValueError) as error:
         mark = getattr(error, "problem_mark", None)
         place = f"{file}:{mark.line + 1}" if mark else file
-        raise ConfigError([f"{place}: is not valid YAML: {getattr(error, 'problem', error)}"]) from error
+        fault, is_double, _ = str(getattr(error, "problem", error)).partition(" with value")
+        lines = Path(file).read_text(encoding="utf-8").splitlines()[mark.line :] if mark else []
+        remedy = "; write spaces, not tabs" if any("\t" in line for line in lines[:1]) else ""
+        remedy = "; merge both, or delete one" if is_double else remedy
+        raise ConfigError([f"{place}: is not valid YAML: {fault}{remedy}"]) from error
     if not isinstance(content, dict):
         raise ConfigError([f"{file}: has no keys with values; begin with a section such as model"])
     return content

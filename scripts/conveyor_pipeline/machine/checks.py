@@ -4,12 +4,14 @@ from collections.abc import Iterator
 
 from conveyor import RANGES
 from conveyor_pipeline.common import csv_table
-from conveyor_pipeline.common.axes import count_values
+from conveyor_pipeline.common.axes import count_values, ends
 from conveyor_pipeline.common.settings import check_span
 from conveyor_pipeline.config.checks import LARGEST_TABLE
 from conveyor_pipeline.machine.calibration import measurements
 from conveyor_pipeline.machine.excitation.limits import STATEMENT
 from conveyor_pipeline.machine.operating.settings import transit_axis
+
+AMPLITUDE_ERROR = 2.0  # no part has a drive whose amplitude is so many times the set one
 
 
 def transit_amplitudes(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
@@ -115,4 +117,22 @@ def bodies(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         )
 
 
-CHECKS = (transit_amplitudes, numbers_of_runs, durations, supply, calibration, excitation, bodies)
+def track(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """A track that is shorter than a part, or that no part can pass in time: lengths in millimetres."""
+    length, longest, axis = config["transit"]["length"], config["transit"]["longest"], transit_axis(config)
+    for key in ("body.length", "advice.part_length"):
+        section, _, name = key.partition(".")
+        if (part := config.get(section, {}).get(name, 0.0)) > length:
+            yield f"{key} = {part!r} m is longer than the track, transit.length = {length!r} m; write {part:g} mm"
+    has_gaps = isinstance(axis, dict) and not {"start", "stop"} <= axis.keys()  # see transit_amplitudes
+    # On a fast drive, no part may pass the default track; a sweep has no track.
+    if has_gaps or length == defaults["transit"]["length"]:
+        return
+    speed = measurements.plate_velocity(max(ends(axis)), config["model"])
+    if config["model"]["inclination"] >= 0.0 and length > AMPLITUDE_ERROR * speed * longest:
+        reason = f"because the plate moves at most at {speed:.3g} m/s"
+        remedy = f"write {length:g} mm, or give more time"
+        yield f"transit.length = {length!r} m is too long for transit.longest = {longest!r} s, {reason}; {remedy}"
+
+
+CHECKS = (transit_amplitudes, numbers_of_runs, durations, supply, calibration, excitation, bodies, track)

@@ -59,7 +59,9 @@ def test_a_value_that_agrees_may_be_stated_and_null_leaves_a_half_out():
     [
         ({"restitution": 0.5}, {"damping": 3.0}, "model.damping = 3.0 contradicts the section contact, which gives 0."),
         ({"restitution": 0.5}, {"damping": 0.3}, "model.damping = 0.3 contradicts the section contact"),
-        (WORDS, {"stiffness": 1e6}, "model.stiffness = 1000000.0 contradicts the section contact, which gives 907567"),
+        (WORDS, {"stiffness": 1e6}, "contradicts the section contact, which gives 907567.0 N/m^1.5; remove it"),
+        (WORDS | {"drop_height": 20.0}, {}, "contact.drop_height = 20.0 should be at most 1 (m)"),
+        (WORDS | {"radius": 1.5}, {}, "contact.radius = 1.5 should be at most 0.5 (m)"),
         (
             {"part": "steel", "radius": 1e-3},
             {},

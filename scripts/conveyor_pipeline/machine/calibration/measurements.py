@@ -99,18 +99,17 @@ def value_fault(name: str, value: float, interval: tuple[float, float]) -> str |
     return None
 
 
-def plate_velocity(measured: Measurement, model: Mapping[str, Any]) -> float:
-    """Bound of the velocity of the plate along the track (m/s)."""
-    own = {**model, **measured.changed}
-    shape = 1.0 + sum(harmonic["along"] / harmonic["order"] for harmonic in own.get("harmonics", ()))
-    return measured.acceleration * math.cos(own.get("angle", 0.0)) / (2.0 * math.pi * own["frequency"]) * shape
+def plate_velocity(acceleration: float, model: Mapping[str, Any]) -> float:
+    """Bound of the velocity of the plate along the track (m/s) at an amplitude (m/s²)."""
+    shape = 1.0 + sum(harmonic["along"] / harmonic["order"] for harmonic in model.get("harmonics", ()))
+    return acceleration * math.cos(model.get("angle", 0.0)) / (2.0 * math.pi * model["frequency"]) * shape
 
 
 def largest_velocity(measured: Measurement, model: Mapping[str, Any]) -> float:
     """Bound of the velocity of a part (m/s): the plate's, and what gravity adds on an inclined track."""
     own = {**model, **measured.changed}
     fall = own["gravity"] * abs(math.sin(own.get("inclination", 0.0)))
-    return plate_velocity(measured, model) + fall * (measured.before + measured.duration)
+    return plate_velocity(measured.acceleration, own) + fall * (measured.before + measured.duration)
 
 
 def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tuple[int, str]]:

@@ -35,7 +35,7 @@ class Contact(TypedDict):
     part: NotRequired[described(MATERIAL | None, "material of the part; null: none")]
     lining: NotRequired[described(MATERIAL | None, "material of the lining; null: none")]
     radius: NotRequired[
-        described(number("radius", "m", gt=0, le=10) | None, "radius of the part at the place of contact; null: none")
+        described(number("radius", "m", gt=0, le=0.5) | None, "radius of the part at the place of contact; null: none")
     ]
     restitution: NotRequired[
         described(
@@ -43,7 +43,7 @@ class Contact(TypedDict):
             "coefficient of restitution in a drop on the plate at rest, √(height after / height before); null: none",
         )
     ]
-    drop_height: number("height of this drop", "m", ge=1e-6, le=100)
+    drop_height: number("height of this drop", "m", ge=1e-6, le=1)
 
 
 SECTIONS = {"contact": described(Contact, "the contact from materials and from a drop")}
