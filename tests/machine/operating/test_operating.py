@@ -359,6 +359,7 @@ def advised(**worst: float) -> list[pd.DataFrame]:
     rows = pd.DataFrame([measures(acceleration=a, population="varied") for a in (31.0, 58.0)])
     rows.attrs = {"length": 0.5, "longest": 20.0, "starts": 256, "spread": {"friction": 0.15, "mass": 0.0, "seed": 1}}
     rows.attrs["model"] = {"friction": 0.15, "angle": 0.21, "mass": 1e-3, "gravity": 10.0, "frequency": 50.0}
+    rows.attrs["model"] |= {"stiffness": 5e5, "exponent": 1.5}
     common = {"throw_number": 0.66, "velocity_worst": 0.01, "spread_worst": 1.1} | worst
     fast = measures(aim="fast", acceleration=31.0, states="first 100 %", states_acceleration=31.25, **common)
     even = measures(aim="even", acceleration=58.0, states="chaos 100 %", states_acceleration=60.0, **common) | {
@@ -377,10 +378,11 @@ def advised(**worst: float) -> list[pd.DataFrame]:
     return [rows, advice_rows, pd.DataFrame(changes).assign(gain_stderr=0.032, widening_stderr=0.01, velocity_05=0.03)]
 
 
-def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame], assumed: tuple[str, ...] = ()) -> str:
+def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame], assumed=(), assumed_model=()) -> str:
     rows, advice_rows, changes = tables
     found = intervals_of(shares_table)
-    return chart.make(TEMPLATE, rows, shares_table, found, advice_rows, changes, assumed, "operating.acceleration")
+    tables = (rows, shares_table, found, advice_rows, changes)
+    return chart.make(TEMPLATE, *tables, assumed, assumed_model, "operating.acceleration")
 
 
 def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
@@ -802,6 +804,15 @@ def test_differences_of_parts_that_no_overlay_states_are_assumed():
     assert settings.assumed_parts(config, {}) == ["friction", "damping", "stiffness", "mass", "acceleration"]
     stated = {"prefix": "mine", "parts": {"friction": 0.15, "mass": 0.0}}
     assert settings.assumed_parts(config, stated) == ["damping", "stiffness", "acceleration"]
+
+
+def test_the_chart_names_the_parameters_that_are_the_papers_because_the_config_states_none(refined):
+    stated = {"model": {"frequency": 100.0, "angle": 0.3, "friction": 0.3}}
+    assumed = settings.assumed_model(stated, ["damping"])
+    assert assumed == ["mass", "stiffness"]
+    told = "so that they are the paper's: mass (0.001 kg) and stiffness (500000 N/m^1.5). If yours differ"
+    assert told in page_of(refined, advised(), (), assumed)
+    assert "the paper's" not in page_of(refined, advised())
 
 
 def test_the_chart_says_what_the_supply_does_and_how_exactly_a_controller_must_hold_the_amplitude(refined):

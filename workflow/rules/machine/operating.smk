@@ -1,7 +1,8 @@
 # Where to run a conveyor: the attractors that initial conditions in a box reach, the transit of parts along a track, and what
 # follows for the operator.
 
-from conveyor_pipeline.machine.operating.settings import START_TABLES, assumed_parts, key_of_amplitudes
+from conveyor_pipeline.config.derived import origins_of
+from conveyor_pipeline.machine.operating.settings import START_TABLES, assumed_model, assumed_parts, key_of_amplitudes
 
 # If the config says so, the parameters of parts are drawn from the samples of the calibration, around their best values. The overlay
 # exists only if the model explains the measurements.
@@ -163,6 +164,7 @@ rule operating_chart:
     params:
         **stage("conveyor_pipeline.machine.operating.chart"),
         assumed=assumed_parts(config, loaded.stated),
+        assumed_model=[] if loaded.is_paper else assumed_model(loaded.stated, origins_of(config)),
         axis=key_of_amplitudes(config),
     script:
         "../../../scripts/conveyor_pipeline/make.py"

@@ -136,11 +136,12 @@ def make(
     advice: pd.DataFrame,
     changes: pd.DataFrame,
     assumed: Sequence[str],
+    assumed_model: Sequence[str],
     axis: str,
 ) -> str:
     """The page from its template and its tables.
 
-    assumed : differences of parts that the config does not state
+    assumed, assumed_model : differences of parts, and parameters of the model, that the config does not state
     axis : key of the amplitudes in the config
     """
     rows = group_narrow(regimes, advice.attrs["margin"])
@@ -158,6 +159,7 @@ def make(
         "words": STATE_WORDS,
         "long_flight": LONG_FLIGHT,
         "assumed": {name: transit.attrs["spread"][name] for name in assumed},
+        "assumed_model": {name: transit.attrs["model"][name] for name in assumed_model},
         "axis": axis,
         "options": advice.attrs | ({"part_length": body["length"]} if body else {}),
         "body": body,

@@ -99,7 +99,7 @@ class Supply(TypedDict):
 
 
 class Switching(TypedDict):
-    rise: number("time in which the drive reaches its amplitude, and in which it stops", "s", gt=0, le=1e3)
+    rise: number("time in which the drive reaches its amplitude, and in which it stops", "s", gt=0, le=100)
     push: many(number("speed of a push away from the plate", "m/s", gt=0, le=100), "pushes of a part on the plate")
 
 
@@ -205,6 +205,14 @@ def bodies_settings(config: dict) -> dict:
 def assumed_parts(config: dict, stated: dict) -> list[str]:
     """The differences of parts that the user does not state, so that the defaults are assumed."""
     return [name for name in config["parts"] if name not in (*stated.get("parts", {}), "seed")]
+
+
+def assumed_model(stated: dict, derived: Iterable[str]) -> list[str]:
+    """The parameters of drive, part and contact that are the paper's, because the user states another conveyor without
+    them; `derived` are those that follow from other sections.
+    """
+    known = {*stated.get("model", {}), *derived}
+    return [name for name in ("frequency", "angle", "mass", "friction", "stiffness", "damping") if name not in known]
 
 
 def parts_settings(config: dict, without: Iterable[str] = ()) -> dict:
