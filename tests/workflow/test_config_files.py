@@ -218,8 +218,8 @@ def test_the_whole_config_is_shown_with_origins(tmp_path):
     shown = dict(line.split(" = ", 1) for line in run.stdout.splitlines())
     assert shown["prefix"] == f'"mine"    # {file}:1'
     assert shown["sweeps.heights.axes.z0.num"] == f"41    # {file}:4"
-    assert shown["sweeps.one.axes.z0"] == f"[0.0, 0.0001]    # {file}:5"
-    assert re.fullmatch(r"0\.0004    # config/defaults/paper/sweeps\.yaml:\d+", shown["sweeps.heights.axes.z0.stop"])
+    assert shown["sweeps.one.axes.z0"] == f"[0.0, 0.0001] m    # {file}:5"
+    assert re.fullmatch(r"0\.0004 m    # config/defaults/paper/sweeps\.yaml:\d+", shown["sweeps.heights.axes.z0.stop"])
     assert re.fullmatch(
         r"400    # config/defaults/paper/sweeps\.yaml:\d+", shown["sweeps.map_height_chaos.axes.psi0.num"]
     )

@@ -9,6 +9,7 @@ from project import ROOT, merged, read_config
 
 from conveyor_pipeline.common.quantities import KEYS, QuantityError, exponent_of, in_unit
 from conveyor_pipeline.config import canonical, problems
+from conveyor_pipeline.config.__main__ import origin_of
 from conveyor_pipeline.config.schema import full_schema
 
 CONFIG = read_config()
@@ -123,4 +124,10 @@ def test_origins_show_the_text(tmp_path):
     file.write_text("prefix: mine\nmodel: {angle: 20 deg}\n")
     command = [sys.executable, "-m", "conveyor_pipeline.config", "--show", str(file)]
     shown = subprocess.run(command, check=True, cwd=ROOT / "scripts", capture_output=True, text=True).stdout
-    assert f"model.angle = 0.349065850398866    # {file}:2: 20 deg" in shown.replace("../", "")
+    assert f"model.angle = 0.349065850398866 rad    # {file}:2: 20 deg" in shown.replace("../", "")
+
+
+def test_the_origin_of_a_converted_value_is_its_dimensionless_one():
+    lines = {("operating", "dimensionless", "height"): "defaults:3", ("operating",): "mine:1", ("transit",): "mine:2"}
+    assert origin_of(("operating", "height"), lines) == "defaults:3"
+    assert origin_of(("transit", "acceleration", "num"), lines) == "mine:2"

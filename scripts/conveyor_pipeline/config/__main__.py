@@ -1,6 +1,6 @@
 """Check config/config.yaml and overlays: python -m conveyor_pipeline.config [--show] FILE …
 
-With --show, print the whole config that results, with the origin of each value.
+With --show, print the whole config that results, with the unit and the origin of each value.
 """
 
 import argparse
@@ -14,6 +14,7 @@ from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.derived import origins_of
 from conveyor_pipeline.config.errors import format_key
 from conveyor_pipeline.config.files import DEFAULT_FILES, USER_FILE, find_lines
+from conveyor_pipeline.config.schema import child, schema_at, unit_of
 
 
 def values_of(value: object, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], object]]:
@@ -25,8 +26,24 @@ def values_of(value: object, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple
         yield path, value
 
 
+def with_unit(path: tuple[str, ...], value: object) -> str:
+    """A value as JSON, with the unit of its key; the schema gives the unit of a list at its first item."""
+    first, schema = (
+        (value[:1], child(schema_at([*path]), 0)) if isinstance(value, list) else ([value], schema_at([*path]))
+    )
+    unit = unit_of(schema) if any(isinstance(item, int | float) for item in first) else ""
+    return f"{json.dumps(value, ensure_ascii=False)} {unit if unit != '1' else ''}".rstrip()
+
+
+def origin_of(path: tuple[str, ...], lines: dict[tuple[str | int, ...], str]) -> str:
+    """FILE:LINE of a key, of the dimensionless value that it follows from, or of the nearest key above it."""
+    dimensionless = ((*path[:end], "dimensionless", *path[end:]) for end in range(1, len(path)))
+    above = (path[:end] for end in range(len(path) - 1, 0, -1))
+    return next(lines[one] for one in (path, *dimensionless, *above) if one in lines)
+
+
 def show(config: dict, stated: dict, files: list[str]) -> Iterator[str]:
-    """A line for each value: its key, the value as JSON, the file and line that it comes from, and a text with a unit.
+    """A line for each value: its key, the value, the file and line that it comes from, and a text with another unit.
 
     stated : what the overlays state, as they give it
     """
@@ -36,12 +53,12 @@ def show(config: dict, stated: dict, files: list[str]) -> Iterator[str]:
     derived = {("model", name): (section,) for name, section in origins_of(config).items()}
     for path, value in values_of(config):
         at = derived.get(path, path)
-        origin = next(lines[at[:end]] for end in range(len(at), 0, -1) if at[:end] in lines)
+        origin = origin_of(at, lines)
         if path in derived:
             origin += f": from the section {at[0]}"
         if isinstance(texts.get(path), str) and texts[path] != value:
             origin += f": {texts[path]}"
-        yield f"{format_key(path)} = {json.dumps(value, ensure_ascii=False)}    # {origin}"
+        yield f"{format_key(path)} = {with_unit(path, value)}    # {origin}"
 
 
 if __name__ == "__main__":

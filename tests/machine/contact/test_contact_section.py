@@ -108,7 +108,7 @@ def test_the_origin_of_a_derived_value_is_shown(tmp_path, capsys):
     file.write_text(yaml.safe_dump(MINE, sort_keys=False))
     loaded = load_config(DEFAULT_FILES, [str(file)], {})
     lines = list(show(loaded.merged, loaded.stated, [*map(str, DEFAULT_FILES), str(file)]))
-    assert f"model.stiffness = 907567.0    # {file}:7: from the section contact" in lines
+    assert f"model.stiffness = 907567.0 N/m^p    # {file}:7: from the section contact" in lines
 
 
 def made(overlay, impact_speed=0.2):
