@@ -7,7 +7,7 @@ import sys
 import pytest
 from project import ROOT, merged, read_config
 
-from conveyor_pipeline.common.quantities import KEYS, QuantityError, exponent_of, in_unit
+from conveyor_pipeline.common.quantities import KEYS, QuantityError, exponent_of, in_unit, is_quantity
 from conveyor_pipeline.config import canonical, problems
 from conveyor_pipeline.config.__main__ import origin_of
 from conveyor_pipeline.config.schema import full_schema
@@ -117,6 +117,15 @@ def test_pint_is_imported_only_for_such_a_text():
     )
     code += "; assert not {'pint', 'numpy', 'numba', 'scipy'} & set(sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT / "scripts")
+
+
+@pytest.mark.parametrize("text", ["1e5", "1E+5", ".5e5"])
+def test_a_number_that_is_a_text_to_yaml_1_1_is_no_quantity(text):
+    """As a module, or with --config, Snakemake hands over such texts."""
+    assert not is_quantity(text)
+    overlay = {"prefix": "mine", "model": {"stiffness": text}}
+    assert problems(merged(CONFIG, overlay)) == []
+    assert canonical(merged(CONFIG, overlay))["model"]["stiffness"] == float(text)
 
 
 def test_origins_show_the_text(tmp_path):

@@ -47,7 +47,8 @@ KEYS = {
 }
 SHARES = "%, or no unit"
 STIFFNESS = "N/m^p"
-QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s.,].*?)\s*")
+# The exponent is possessive (?+), so that 1e5, a text to YAML 1.1, is not 1 with the unit e5.
+QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*([^\d\s.,].*?)\s*")
 # Other spellings: m/s2 for m/s², the signs °, % and ·.
 SPELLINGS = ((r"(?<=[a-z])([23])\b", r"**\1"), ("°", " degree "), ("%", " percent "), ("·", " "))
 DIGITS = 15  # of a converted number, so that 0.3 mm is 0.0003
