@@ -4,7 +4,7 @@ from collections.abc import Collection
 
 import numpy as np
 
-from .parameters import PARAMETERS, RANGES, TENSION_MODES, UNITS, check_number
+from .parameters import PARAMETERS, RANGES, TENSION_MODES, UNITS, check_number, format_interval
 
 MOST_VALUES = 10**8  # values in one array, or in the product of several
 MOST_THREADS = 1024
@@ -87,7 +87,7 @@ def check_array(
     if may_be_nan:
         outside &= ~np.isnan(numbers)
     if outside.any():
-        raise ValueError(f"{name} = {array[outside].flat[0]!s} is outside [{low:g}, {high:g}] {unit}".rstrip())
+        raise ValueError(f"{name} = {array[outside].flat[0]!s} is outside {format_interval(low, high, unit)}")
     return numbers
 
 
@@ -101,9 +101,10 @@ def check_parameter(name: str, value: object) -> float:
     """
     low, high = RANGES[name]
     if not is_real(value):
-        raise ValueError(f"{name} must be a number in {UNITS[name]}, got {value!r}")
+        unit = f" in {UNITS[name]}" if UNITS[name] != "1" else ""
+        raise ValueError(f"{name} must be a number{unit}, got {value!r}")
     if not low <= value <= high:
-        raise ValueError(f"{name} = {value!r} is outside [{low:g}, {high:g}] {UNITS[name]}")
+        raise ValueError(f"{name} = {value!r} is outside {format_interval(low, high, UNITS[name])}")
     return float(value)
 
 

@@ -11,7 +11,7 @@ from .columns import Columns
 from .methods import fixed_step
 from .packing import check_column, check_rows, copy_table
 from .parallel import for_each_chunk
-from .parameters import RANGES
+from .parameters import RANGES, UNITS
 from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, check_run, follow_by_events, follow_by_steps
 from .solver import record, trajectory
 from .solver.arrivals import CYCLES, EVERY_CYCLE, ON_TRACK, SHARE
@@ -204,10 +204,11 @@ def restart(parameters: Conveyor | np.ndarray, z_end: ArrayLike, vz_end: ArrayLi
     [0.0, 0.0]
     """
     later = copy_table(parameters)
-    cycles = later["frequency"] * check_column("duration", duration, later.shape, 0.0, arguments.LONGEST)
+    cycles = later["frequency"] * check_column("duration", duration, later.shape, 0.0, arguments.LONGEST, unit="s")
     later["psi0"] = (later["psi0"] + 2.0 * math.pi * (cycles - np.floor(cycles))) % (2.0 * math.pi)
     for name, of_end, ends in (("z0", "z_end", z_end), ("vz0", "vz_end", vz_end)):
-        later[name] = check_column(of_end, ends, later.shape, *arguments.PACKED[name], may_be_nan=True)
+        unit = UNITS[name]
+        later[name] = check_column(of_end, ends, later.shape, *arguments.PACKED[name], may_be_nan=True, unit=unit)
     return later
 
 

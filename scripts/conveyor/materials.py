@@ -30,8 +30,8 @@ SHORE = re.compile(rf"({'|'.join(ELASTOMERS)})_(\d\d)([AD])")
 # Of an elastomer, over the modulus of the formula.
 UNCERTAINTY = (1.0 / 1.5, 3.0)
 INCOMPRESSIBLE = 0.5  # Poisson's ratio of elastomers
-STIFFEST = 2e12  # Pa, above diamond
-LARGEST_RADIUS = 10.0  # m
+SOFTEST, STIFFEST = 1e4, 2e12  # Pa, of a foam, and above diamond; a modulus in GPa is below
+LARGEST_RADIUS = 0.5  # m; a radius in millimetres is above
 
 
 class Material(NamedTuple):
@@ -112,8 +112,8 @@ def constants_of(name: str, given: Any) -> tuple[float, float]:
         modulus, poisson = map(float, given)
     except (TypeError, ValueError):
         raise ValueError(f"{name} = {given!r} must be a material, or a modulus in Pa and Poisson's ratio") from None
-    if not (0.0 < modulus <= STIFFEST and -1.0 < poisson <= 0.5):
-        limits = f"a modulus in (0, {STIFFEST:g}] Pa and Poisson's ratio in (-1, 0.5]"
+    if not (SOFTEST <= modulus <= STIFFEST and -1.0 < poisson <= 0.5):
+        limits = f"a modulus in [{SOFTEST:g}, {STIFFEST:g}] Pa and Poisson's ratio in (-1, 0.5]"
         raise ValueError(f"{name} = {given!r} must have {limits}")
     return modulus, poisson
 
@@ -127,7 +127,7 @@ def hertz_stiffness(part: Any, lining: Any, radius: float) -> float:
     Parameters
     ----------
     part, lining : a Material, the name of one, or its modulus (Pa) and Poisson's ratio
-    radius : radius R of the part at the place of contact, above 0 and at most 10 m
+    radius : radius R of the part at the place of contact, above 0 and at most 0.5 m
 
     Examples
     --------

@@ -86,6 +86,17 @@ def normal_gravity(model: Mapping[str, float]) -> float:
 FIXED_STEP_METHODS = ("euler", "semi_implicit_euler", "rk4")
 
 
+def format_interval(low: float, high: float, unit: str = "", *, above: bool = False) -> str:
+    """The admissible values of an argument, for its error; a number without dimension has the unit "1".
+
+    Examples
+    --------
+    >>> format_interval(0.0, 10.0, "m", above=True), format_interval(0.0, 10.0, "1")
+    ('(0, 10] m', '[0, 10]')
+    """
+    return f"{'(' if above else '['}{low:g}, {high:g}] {unit if unit != '1' else ''}".rstrip()
+
+
 def check_number(name: str, value: object, low: float, high: float, unit: str = "", *, above: bool = False) -> float:
     """`value` as a float; it must lie in [low, high], or in (low, high] where it has to lie `above` the lower end.
 
@@ -104,6 +115,5 @@ def check_number(name: str, value: object, low: float, high: float, unit: str = 
     except OverflowError:
         number = math.nan
     if not low <= number <= high or (above and number == low):
-        interval = f"{'(' if above else '['}{low:g}, {high:g}] {unit}".rstrip()
-        raise ValueError(f"{name} = {value!r} must be a number in {interval}")
+        raise ValueError(f"{name} = {value!r} must be a number in {format_interval(low, high, unit, above=above)}")
     return number

@@ -60,11 +60,13 @@ def test_a_part_rests_at_the_depth_of_hertz():
     [
         (("stel", "PP", 1e-3), "name = 'stel' is not one of steel, "),
         (("steel", "rubber_99A", 1e-3), "name = 'rubber_99A' must have a hardness Shore A from 20 to 95"),
-        (("steel", "PP", 0.0), r"radius = 0.0 must be a number in \(0, 10\] m"),
+        (("steel", "PP", 0.0), r"radius = 0.0 must be a number in \(0, 0.5\] m"),
         (("steel", "PP", True), "radius = True must be"),
         ((210e9, "PP", 1e-3), "part = 210000000000.0 must be a material, or a modulus in Pa and Poisson's ratio"),
+        (("steel", (210.0, 0.3), 1e-3), r"lining = \(210.0, 0.3\) must have a modulus in \[10000, 2e\+12\] Pa"),
+        (("steel", "PP", 1.5), r"radius = 1.5 must be a number in \(0, 0.5\] m"),
         (("steel", (1e9, 0.7), 1e-3), r"lining = \(1000000000.0, 0.7\) must have a modulus in"),
-        (((1e-9, 0.3), "PP", 1e-9), "part, lining and radius = 1e-09 m give"),
+        (((1e4, 0.3), "PP", 1e-9), "part, lining and radius = 1e-09 m give"),
     ],
 )
 def test_impossible_contacts_are_refused(arguments, message):

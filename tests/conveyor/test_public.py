@@ -383,6 +383,15 @@ def test_tables_of_parameters_are_checked(name, value, orbit):
             function_of(name)(**arguments_of(name, orbit) | {"parameters": table})
 
 
+def test_an_error_shows_no_unit_where_there_is_none():
+    with pytest.raises(ValueError, match=r"friction = -1 is outside \[0, 10\]$"):
+        Conveyor(friction=-1)
+    with pytest.raises(ValueError, match=r"angle = 20.0 is outside \[0, 1.5708\] rad$"):
+        Conveyor(angle=20.0)
+    with pytest.raises(ValueError, match=r"duration = -1.0 is outside \[0, 1e\+06\] s$"):
+        conveyor.restart(Conveyor(), 0.0, 0.0, -1.0)
+
+
 @pytest.mark.parametrize("name", CHECKED)
 def test_contradictions_in_a_table_are_named(name, orbit):
     for parameter, value, words in (

@@ -146,7 +146,7 @@ def test_the_page_names_both_values_and_what_is_uncertain(overlay):
     model = settings["model"]
     assert f"**k_c = {format_plain(model['stiffness'], 3)} N/m^1.5 and d_c = {model['damping']:.3g} N s/m.**" in text
     assert "Hertz's formula does not hold" in text
-    assert "| in the drop of 20 mm | 0.626 |" in text
+    assert "| in the drop of 20 mm | 62.6 |" in text
     assert ("Gent (1958)" in text) == ("The part bounces" not in text and "contact" in overlay)
     assert "nan" not in text.lower().replace("nano", "")
 

@@ -4,7 +4,7 @@ from typing import Any, NotRequired
 
 from typing_extensions import TypedDict
 
-from conveyor.materials import ELASTOMERS, STIFFEST, materials
+from conveyor.materials import ELASTOMERS, LARGEST_RADIUS, SOFTEST, STIFFEST, materials
 from conveyor_pipeline.common.settings import described, either, mapping, number, text
 from conveyor_pipeline.machine.contact.derive import contact_of
 from conveyor_pipeline.machine.operating.settings import blocks_settings
@@ -24,7 +24,7 @@ MATERIAL = either(
     moduli=mapping(
         "elastic constants",
         {
-            "modulus": number("Young's modulus", "Pa", gt=0, le=STIFFEST),
+            "modulus": number("Young's modulus", "Pa", ge=SOFTEST, le=STIFFEST),
             "poisson": number("Poisson's ratio", gt=-1, le=0.5),
         },
     ),
@@ -35,7 +35,10 @@ class Contact(TypedDict):
     part: NotRequired[described(MATERIAL | None, "material of the part; null: none")]
     lining: NotRequired[described(MATERIAL | None, "material of the lining; null: none")]
     radius: NotRequired[
-        described(number("radius", "m", gt=0, le=0.5) | None, "radius of the part at the place of contact; null: none")
+        described(
+            number("radius", "m", gt=0, le=LARGEST_RADIUS) | None,
+            "radius of the part at the place of contact; null: none",
+        )
     ]
     restitution: NotRequired[
         described(
