@@ -835,3 +835,7 @@ def test_the_chart_says_what_the_supply_does_and_how_exactly_a_controller_must_h
     assert "between 30 and 32.5 m/s² (-3.2 % to +4.8 %)" in page
     assert "% too large or too small" not in page
     assert "as far off as the supply makes it (-26 % to +38 %)" in page
+    one = rows[rows.acceleration == 31.0]
+    one.attrs = rows.attrs
+    page = page_of(refined, [one, advice_rows, changes])
+    assert "have 1 cm/s instead of 2 cm/s.\n" in page and "a controller must hold" not in page
