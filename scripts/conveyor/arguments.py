@@ -42,15 +42,11 @@ def check_flag(name: str, value: object) -> bool:
     return bool(value)
 
 
-def is_real(value: object) -> bool:
-    """Whether `value` is a real number. To NumPy, a timedelta64 is an integer."""
-    is_number = isinstance(value, (int, float, np.integer, np.floating))
-    return is_number and not isinstance(value, (bool, np.timedelta64))
-
-
 def check_count(name: str, value: object, low: int, high: int) -> int:
     """`value` as an int; ValueError unless it is a whole number from `low` to `high`."""
-    if not is_real(value) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
+    # To NumPy, a time span is a whole number.
+    is_whole = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
+    if not is_whole or not low <= value <= high:
         raise ValueError(f"{name} = {value!r} must be a whole number from {low} to {high}")
     return int(value)
 
@@ -92,20 +88,8 @@ def check_array(
 
 
 def check_parameter(name: str, value: object) -> float:
-    """Return `value` as a float; raise ValueError that names the parameter, its unit and its range if it is outside.
-
-    Examples
-    --------
-    >>> check_parameter("frequency", 50)
-    50.0
-    """
-    low, high = RANGES[name]
-    if not is_real(value):
-        unit = f" in {UNITS[name]}" if UNITS[name] != "1" else ""
-        raise ValueError(f"{name} must be a number{unit}, got {value!r}")
-    if not low <= value <= high:
-        raise ValueError(f"{name} = {value!r} is outside {format_interval(low, high, UNITS[name])}")
-    return float(value)
+    """`value`, of a parameter, as a float; ValueError outside its range."""
+    return check_number(name, value, *RANGES[name], UNITS[name])
 
 
 def check_time(name: str, value: object) -> float:

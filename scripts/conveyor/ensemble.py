@@ -69,15 +69,13 @@ def sweep(
     arguments.check_choice("needs", needs, NEEDS)
     threads = arguments.check_threads(threads)
     arguments.check_count("chunk", chunk, 1, 10**9)
-    durations = arguments.check_array("duration", duration, np.finfo(np.float64).tiny, arguments.LONGEST, "s", least=0)
-    _, tolerance, step = check_run(durations.max() if durations.size else arguments.LONGEST, method, tolerance, step)
-    if method != "event" and durations.ndim > 0:
-        raise ValueError("duration: only the event-driven method takes one for each row")
     rows, shape = check_rows(parameters)
-    if durations.ndim > 0 and durations.shape != shape:
-        raise ValueError(f"duration has the shape {durations.shape}, but parameters have the shape {shape}")
+    shortest = np.finfo(np.float64).tiny
+    durations = check_column("duration", duration, shape, shortest, arguments.LONGEST, unit="s").flatten()
+    _, tolerance, step = check_run(durations.max(initial=shortest), method, tolerance, step)
+    if method != "event" and np.ndim(duration) > 0:
+        raise ValueError("duration: only the event-driven method takes one for each row")
     feeding = needs == "feeding"
-    durations = np.broadcast_to(durations, shape).flatten()
     columns = {name: np.empty(len(rows)) for name in (*COLUMNS, "status")}
 
     def work(begin, end):
@@ -85,7 +83,7 @@ def sweep(
         if method == "event":
             some = follow_by_events(rows[part], durations[part], tolerance, feeding)
         else:
-            some = follow_by_steps(rows[part], durations[begin], step, method)
+            some = follow_by_steps(rows[part], float(durations[begin]), step, method)
         for name in columns:
             columns[name][part] = some[name] if feeding or name not in HORIZONTAL else np.nan
         return np.count_nonzero(columns["status"][part] != OK)

@@ -13,8 +13,8 @@ from .ensemble import sweep
 from .packing import as_rows, as_table, check_row, parameter_table
 from .parameters import DEFAULT_TOLERANCE, LAST
 from .progress import progress_bar
-from .solver.model import FREQUENCY, PSI0, Conveyor
-from .solver.pieces import BEGIN_OF_CYCLE
+from .solver import contact
+from .solver.model import FREQUENCY, Conveyor
 
 SAMPLES = 256
 CYCLES = 2048  # excitation cycles over which a mean velocity is taken, whole periods up to MAX_PERIOD
@@ -64,14 +64,13 @@ def attractors_of_row(row: np.ndarray, samples: int, options: dict[str, Any]) ->
     tolerance = labels.check_tolerance(options["tolerance"])
     table = search.find_attractors(as_table(row[None]), **options)
     conveyor = table.orbits.conveyors[0] if len(table.orbits.conveyors) else labels.distinct_rows(row[None])[0][0]
-    at_top = np.array(conveyor)
-    at_top[PSI0] = BEGIN_OF_CYCLE
+    at_top, constants = stroboscopic_map.begin_at_top(conveyor), contact.constants(row, tolerance)
     starts = sampling.sampled_initial_conditions(row, samples)
     starts = stroboscopic_map.pack_states(np.tile(at_top, (samples, 1)), starts, tolerance)
     found = [
         identity.orbit_attractor(conveyor, labels.regular_state(flight * row[FREQUENCY]), int(period), state)
         for state, period, flight in zip(
-            (identity.state_of(row, centre) for centre in table.orbits.centres),
+            (stroboscopic_map.state_of(constants, centre) for centre in table.orbits.centres),
             table.orbits.periods,
             table.orbits.flights,
             strict=True,

@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike
 from . import arguments
 from .columns import Columns
 from .elementary import cos, sin
-from .parameters import DEFAULT_TOLERANCE, HARMONIC, PARAMETERS, RANGES, TENSION_MODES, UNITS
-from .solver import contact, model, plate
-from .solver.jit import compiled
+from .parameters import HARMONIC, PARAMETERS, RANGES, TENSION_MODES, UNITS
+from .solver import model, plate
 from .solver.model import Conveyor, Start, check_static_friction, pack, unpack
 
 # The initial condition; ψ0 only shifts the phase at which a motion is observed.
@@ -233,18 +232,6 @@ def place_of(row: int, shape: tuple[int, ...]) -> str:
     return f"parameters[{index}]" if index else "parameters"
 
 
-def plate_heights(parameters: np.ndarray) -> np.ndarray:
-    """Heights of the plates (m) at t = 0 (Eq. 4) for a table of the shape (n,), shape (n,).
-
-    Examples
-    --------
-    >>> plate_heights(parameter_table(Conveyor(acceleration=40.0), psi0=[0.0, 3.0])) > 0.0
-    array([False,  True])
-    """
-    rows = as_rows(parameters)
-    return heights_of_rows(rows, plate.count_harmonics(rows))
-
-
 def plate_peaks(parameters: np.ndarray) -> Columns:
     """The largest sizes of the plate's motion over a cycle, with its harmonics, for a table of the shape (n,).
 
@@ -281,16 +268,6 @@ def plate_peaks(parameters: np.ndarray) -> Columns:
             "displacement": acceleration / omega**2 * combine(shares.x, shares.z),
         }
     )
-
-
-@compiled
-def heights_of_rows(rows, harmonics):
-    """`plate_heights` of rows as from `as_rows`; `harmonics` as from plate.count_harmonics."""
-    heights = np.empty(len(rows))
-    for i in range(len(rows)):
-        c = contact.compute_constants(rows[i], DEFAULT_TOLERANCE, harmonics)
-        heights[i] = plate.height(c, *plate.sine_and_cosine(c.psi0))
-    return heights
 
 
 def refuse_harmonics(parameters: np.ndarray, what: str) -> None:

@@ -4,10 +4,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arguments import LARGEST_COORDINATE, MOST_CYCLES, check_array, check_count, check_tolerance
-from ..packing import as_table, check_row, check_rows
+from ..packing import as_rows, as_table, check_row, check_rows
 from ..parameters import DEFAULT_TOLERANCE
 from ..progress import progress_bar
-from ..solver.model import Conveyor
+from ..solver.model import Z0, Conveyor
 from . import stroboscopic_map
 
 
@@ -20,6 +20,19 @@ def initial_states(parameters: Conveyor | np.ndarray, *, tolerance: float = DEFA
     [[-0.0, -0.0], [-0.0001, -0.0]]
     """
     return stroboscopic_map.initial_states(check_rows(parameters)[0], check_tolerance(tolerance))
+
+
+def plate_heights(parameters: np.ndarray) -> np.ndarray:
+    """Heights of the plates (m) at t = 0 (Eq. 4) for a table of the shape (n,), shape (n,).
+
+    Examples
+    --------
+    >>> plate_heights(parameter_table(Conveyor(acceleration=40.0), psi0=[0.0, 3.0])) > 0.0
+    array([False,  True])
+    """
+    rows = as_rows(parameters).copy()
+    rows[:, Z0] = 0.0  # from where the penetration is the height of the plate
+    return stroboscopic_map.initial_states(rows, DEFAULT_TOLERANCE)[:, 0]
 
 
 def strobes(

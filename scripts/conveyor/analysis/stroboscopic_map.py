@@ -289,6 +289,23 @@ def fill_monodromy(parameters, tolerance, harmonics, state, airborne, matrices, 
     return OK
 
 
+def smooth_state(c, state: np.ndarray) -> np.ndarray:
+    """δ and Y of a state (δ, v); `c` as for contact_law.smooth_speed."""
+    return np.array([state[0], contact_law.smooth_speed(c, state[0], state[1])])
+
+
+def state_of(c, smooth: np.ndarray) -> np.ndarray:
+    """The state (δ, v) of δ and Y, the inverse of `smooth_state`."""
+    return np.array([smooth[0], contact_law.speed_of_approach(c, smooth[0], smooth[1])])
+
+
+def begin_at_top(parameters: np.ndarray) -> np.ndarray:
+    """The same conveyors, shape (…, 16), with the phase pieces.BEGIN_OF_CYCLE."""
+    parameters = np.array(parameters)
+    parameters[..., PSI0] = pieces.BEGIN_OF_CYCLE
+    return parameters
+
+
 def pack_states(parameters: np.ndarray, states: np.ndarray, tolerance: float) -> np.ndarray:
     """Parameter vectors, shape (n, 16), that begin at stroboscopic states (δ in m, v in m/s), shape (n, 2)."""
     packed = np.array(parameters, dtype=np.float64)

@@ -24,7 +24,6 @@ from ..solver import model
 from ..solver.status import EVENT_LOST, GAVE_UP, NOT_FINITE, OK, STATUS, STEP_TOO_SMALL, STUCK
 from . import modes
 
-INTEGRATORS = ("RK45", "DOP853", "Radau", "LSODA")
 TREATMENTS = ("sign", "events", "modes")
 
 # Where "modes" puts the variable of an event, in units of the plate's motion: a few rounding errors beside zero. At
@@ -151,20 +150,16 @@ def run(
 ) -> IntegratorRun:
     """Integrate one trajectory from t = 0.
 
-    ValueError for an unknown integrator or treatment.
-
     Parameters
     ----------
     parameters : a row of a table
     duration : s
-    integrator : one of INTEGRATORS
+    integrator : RK45, DOP853, Radau or LSODA
     treatment : one of TREATMENTS
     tolerance : relative tolerance; the absolute one is `tolerance` times `scales`
     max_evaluations : of the right-hand side, after which a run is given up
     times : s, ascending, above 0 and within the duration, at which states are wanted: they are interpolated
     """
-    if integrator not in INTEGRATORS or treatment not in TREATMENTS:
-        raise ValueError(f"{integrator!r} with {treatment!r} is none of {INTEGRATORS} with {TREATMENTS}")
     refuse_harmonics(parameters, integrator)
     parameters = as_rows(parameters)
     trajectory = Trajectory(parameters, integrator, max_evaluations, np.asarray(times, dtype=np.float64))

@@ -24,12 +24,7 @@ ROUNDING = 1e-10  # relative, of a number of blocks
 # The beginning of a block: the number of its first cycle; time into this cycle (s), w, v; velocity (m/s) and position
 # (m) along the track; the furthest position since then (m).
 Block = namedtuple("Block", "cycle t w v vx x furthest")
-
-
-@compiled_into_callers
-def first_block():
-    """The Block at the beginning of a run."""
-    return Block(0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+FIRST_BLOCK = Block(0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @compiled_into_callers

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..parallel import call_interruptibly
 from . import contact, pieces, plate, repeated_steps
-from .arrivals import EVERY_CYCLE, first_block, has_arrived, record_arrivals, skip_blocks
+from .arrivals import EVERY_CYCLE, FIRST_BLOCK, has_arrived, record_arrivals, skip_blocks
 from .horizontal import Horizontal, follow_horizontal, touch_down
 from .jit import compiled_entry, no_refcount
 from .model import FREQUENCY, VZ0, Z0
@@ -111,7 +111,7 @@ def follow(parameters, vx0, options, records, distances, series):
             Record(times[i], since[i], samples[i], event_times[i], event_kinds[i], distances, arrivals[i], results[i])
         )
         record.results[MAX_GAP] = max(motion.q, 0.0)
-        horizontal, block = Horizontal(0.0, vx0[i], 0.0), first_block()
+        horizontal, block = Horizontal(0.0, vx0[i], 0.0), FIRST_BLOCK
         if motion.touching:
             horizontal = touch_down(c, motion, horizontal)
         while True:

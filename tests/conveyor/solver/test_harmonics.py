@@ -26,8 +26,9 @@ from conveyor import (
 )
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.attractors.search import find_attractors
+from conveyor.analysis.map_states import plate_heights
 from conveyor.methods import scipy_integrators
-from conveyor.packing import plate_heights, plate_peaks
+from conveyor.packing import plate_peaks
 from conveyor.solver import contact, plate
 from conveyor.solver.model import pack
 
@@ -124,7 +125,7 @@ def by_dop853(conveyor: Conveyor, z: float, times: np.ndarray) -> np.ndarray:
     return found
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(6))
 def test_dop853_agrees(seed):
     generator = np.random.default_rng(seed)
     exponent = [1.0, 1.5, 1.5, 2.2][seed % 4]
@@ -138,9 +139,9 @@ def test_dop853_agrees(seed):
         assert np.abs(sample[name] - expected[:, k]).max() < 1e-9 * largest[k]
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_runge_kutta_converges_to_a_part_that_rides(seed):
-    conveyor = random_conveyor(np.random.default_rng(seed), acceleration=12.0, angle=0.2)
+def test_runge_kutta_converges_to_a_part_that_rides():
+    """With the orders of TWO, for which the steps are compiled in another test, too."""
+    conveyor = Conveyor(acceleration=12.0, angle=0.2, psi0=2.0, inclination=0.05, phase_shift=0.7, harmonics=TWO)
     height, rise, _ = plate_at(conveyor, 0.0)
     start = Start(z=height - 6e-6, vz=rise)  # about as deep as at rest
     exact = simulate(conveyor, start, duration=0.02, tolerance=1e-13)
@@ -352,7 +353,7 @@ def test_what_cannot_take_harmonics_says_so():
 def test_peaks_of_the_plate_are_those_of_its_dense_motion():
     """The speed along the track; accelerations and displacements along the track and normal to it, combined."""
     generator = np.random.default_rng(5)
-    for _ in range(20):
+    for _ in range(5):
         conveyor = random_conveyor(generator)
         times = np.linspace(0.0, 1.0 / conveyor.frequency, 20_001)
         motion = plate_motion(conveyor, times)

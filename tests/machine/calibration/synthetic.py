@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from conveyor import Conveyor, Start, parameter_table, simulate
-from conveyor.packing import plate_heights
+from conveyor.analysis.map_states import plate_heights
 from conveyor_pipeline.machine.calibration.measurements import DEFAULTS
 
 TOLERANCE = 1e-9

@@ -6,7 +6,7 @@ import pytest
 from project import si_config
 
 from conveyor import Block
-from conveyor.packing import plate_heights
+from conveyor.analysis.map_states import plate_heights
 from conveyor_pipeline.machine import checks
 from conveyor_pipeline.machine.operating import advice, bodies, body_limits, parts, populations, transit
 from conveyor_pipeline.machine.operating.settings import TABLE_SETTINGS

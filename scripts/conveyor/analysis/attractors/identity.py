@@ -5,9 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...columns import Columns
-from ...solver import contact, contact_law
-from ...solver.model import PSI0
-from ...solver.pieces import BEGIN_OF_CYCLE
+from ...solver import contact
 from .. import stroboscopic_map
 from ..bifurcations.periodic_orbits import ORBIT_TOLERANCE, Orbit, orbit_near
 from ..dimensionless_groups import length_and_speed_units
@@ -60,8 +58,7 @@ class Attractors(NamedTuple):
 
 def orbit_attractor(row: np.ndarray, label: str, period: int, state: np.ndarray) -> Attractor:
     """The attractor of a periodic motion from a state (δ in m, v in m/s) close to it at the beginning of a cycle."""
-    row = np.array(row)
-    row[PSI0] = BEGIN_OF_CYCLE
+    row = stroboscopic_map.begin_at_top(row)
     orbit = orbit_near(row, state, period)
     if orbit is None or not orbit.stable or distance(row, orbit.state, state) > CLOSE:
         orbit = None
@@ -73,12 +70,6 @@ def orbit_attractor(row: np.ndarray, label: str, period: int, state: np.ndarray)
 def distance(row: np.ndarray, state: np.ndarray, others: np.ndarray) -> float:
     """The least distance of a state from other states, shape (…, 2), in g/ω² and g/ω."""
     return float((np.abs(others - state) / length_and_speed_units(row)).max(axis=-1).min())
-
-
-def state_of(row: np.ndarray, centre: np.ndarray) -> np.ndarray:
-    """δ (m) and v (m/s) of a centre of attractor_table.AttractingOrbits."""
-    constants = contact.constants(row, ORBIT_TOLERANCE)
-    return np.array([centre[0], contact_law.speed_of_approach(constants, centre[0], centre[1])])
 
 
 def identify(attractors: Attractors, labels: Columns) -> np.ndarray:

@@ -9,8 +9,6 @@ import numpy as np
 
 from ...packing import as_rows
 from ...solver import contact
-from ...solver.model import PSI0
-from ...solver.pieces import BEGIN_OF_CYCLE
 from .. import stroboscopic_map
 from . import convergence_lanes
 from .attractor_table import NO_ATTRACTORS, AttractorTable
@@ -54,9 +52,7 @@ def follow(
     states : float64, shape (n, 2), δ (m), v (m/s) at pieces.BEGIN_OF_CYCLE
     strobes : float64, shape (n, cycles, 2), filled with the states after each cycle
     """
-    at_top = np.array(parameters)
-    at_top[:, PSI0] = BEGIN_OF_CYCLE
-    rows = stroboscopic_map.pack_states(at_top, states, tolerance)
+    rows = stroboscopic_map.pack_states(stroboscopic_map.begin_at_top(parameters), states, tolerance)
     table_rows = attractors.rows_of(rows)
     return convergence_lanes.follow_all_to_attractors(rows, tolerance, cycles, attractors, table_rows, strobes)
 

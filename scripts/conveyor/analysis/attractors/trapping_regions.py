@@ -19,7 +19,6 @@ from ... import linear_algebra
 from ...parallel import call_interruptibly
 from ...solver import contact, contact_law, plate
 from ...solver.jit import compiled
-from ...solver.model import PSI0
 from ...solver.pieces import BEGIN_OF_CYCLE
 from ...solver.status import OK
 from .. import stroboscopic_map
@@ -139,12 +138,11 @@ def linearise(parameters: np.ndarray, tolerance: float, point: np.ndarray, perio
     period : excitation cycles
     """
     c = contact.constants(parameters, tolerance)
-    state = np.array([point[0], contact_law.speed_of_approach(c, point[0], point[1])])
+    state = stroboscopic_map.state_of(c, point)
     status, matrices, _ = stroboscopic_map.monodromy(parameters, tolerance, state, period, 0.0)
     if status != OK:
         return None
-    end = np.array([state[0], contact_law.smooth_speed(c, state[0], state[1])])
-    return end, linear_algebra.chain(matrices)
+    return stroboscopic_map.smooth_state(c, state), linear_algebra.chain(matrices)
 
 
 def refine_orbit(
@@ -181,7 +179,7 @@ def find_trapping_region(
     spent : excitation cycles
     """
     c, unit = contact.constants(parameters, tolerance), np.array(length_and_speed_units(parameters))
-    centre = np.array([state[0], contact_law.smooth_speed(c, state[0], state[1])])
+    centre = stroboscopic_map.smooth_state(c, state)
     periods, linear = PERIODS, linearise(parameters, tolerance, centre, period)
     if linear is None:
         return None, 0
@@ -238,12 +236,11 @@ def add_without_region(
     for state, period, flight in candidates:
         if is_near(state, known, unit):
             continue
-        centre = np.array([state[0], contact_law.smooth_speed(c, state[0], state[1])])
-        refined = refine_orbit(at_top, tolerance, centre, period)
+        refined = refine_orbit(at_top, tolerance, stroboscopic_map.smooth_state(c, state), period)
         if refined is None or not spectral_radius(refined[1]) < 1.0:
             continue
         centre = refined[0]
-        state = np.array([centre[0], contact_law.speed_of_approach(c, centre[0], centre[1])])
+        state = stroboscopic_map.state_of(c, centre)
         status, strobes, _ = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
         reached = [convergence.find_reached_orbit(c, strobe, orbits, 0, count) >= 0 for strobe in strobes]
         if status == OK and not any(reached) and not is_near(state, known, unit):
@@ -267,8 +264,7 @@ def find_attracting_orbits(
     chaotic : the known chaotic sets of the conveyor
     most : excitation cycles in all, after which no further orbit is searched for
     """
-    at_top, unit = parameters.copy(), np.array(length_and_speed_units(parameters))
-    at_top[PSI0] = BEGIN_OF_CYCLE
+    at_top, unit = stroboscopic_map.begin_at_top(parameters), np.array(length_and_speed_units(parameters))
     constants = contact.constants(parameters, tolerance)
     seen, orbits, left, without_region = np.empty((0, 2)), NO_ATTRACTORS.orbits, most, []
 

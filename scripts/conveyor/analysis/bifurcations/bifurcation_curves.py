@@ -18,7 +18,6 @@ not generic.
 
 import math
 from collections.abc import Iterable, Sequence
-from enum import StrEnum
 from typing import NamedTuple
 
 import numpy as np
@@ -29,6 +28,7 @@ from ...arguments import check_choice, check_limits, check_type
 from ...columns import Columns
 from ...packing import replace_parameters
 from ...progress import progress_bar
+from .. import stroboscopic_map
 from ..dimensionless_groups import Groups, amplitude_of, length_and_speed_units
 from .bifurcation_points import (
     EVALUATIONS,
@@ -42,7 +42,6 @@ from .bifurcation_points import (
     linearise,
     multiplier_test,
     touching_point,
-    velocity_for_y,
 )
 from .continuation import Bifurcation
 from .newton import difference_quotients, follow_curve, newton
@@ -59,17 +58,6 @@ SMALL = 1e-3  # ratio of the test at a cusp or generalised doubling to the tests
 DIFFERENCE = 3e-8
 BENDING = 3e-7  # of the difference quotient of M, in (x, y)
 SIDESTEP = 1e-4  # of the second difference of M along r, in (x, y), where the map bends as much as its unit
-
-
-class CurveEnd(StrEnum):
-    """Why a curve ends."""
-
-    LIMIT = "limit"
-    STEP = "step"
-    LENGTH = "length"
-    CLOSED = "closed"
-    LOST = "lost"
-    HALVED = "period halving"
 
 
 class ParameterPath(NamedTuple):
@@ -102,16 +90,14 @@ class CodimensionTwoPoint(NamedTuple):
 
 
 class BifurcationCurve(NamedTuple):
-    """A curve of one bifurcation in the order of its arclength, its points of codimension two, and why it ends.
-
-    `ends` are the reasons at the first and at the last point, one of the words above.
-    """
+    """A curve of one bifurcation in the order of its arclength, its points of codimension two, and why it ends."""
 
     points: list[BifurcationPoint]
     log_ratios: np.ndarray  # λ of each point, shape (n,)
     normal_forms: np.ndarray  # coefficient at each point, whose zero is a cusp or a generalised doubling, shape (n,)
     impacts: np.ndarray  # per period, at each point, shape (n,)
     meetings: list[CodimensionTwoPoint]
+    # At the first and last point: limit, step (none is small enough), length, closed, lost, period halving.
     ends: tuple[str, str]
 
 
@@ -230,8 +216,8 @@ def follow_bifurcation_curve(
     >>> fold = find_bifurcation("fold", 1, np.array([-3.41, 1.61, 0.508]), groups_of(parameter_table(Conveyor())))
     >>> path = ParameterPath(damping=1.0, stiffness=0.0)
     >>> curve = follow_bifurcation_curve(fold, path, (0.1, 5.0), (-0.5, 0.5), longest_step=0.1, most=100)
-    >>> [end.value for end in curve.ends], round(curve.points[0].groups.amplitude, 2)  # Γ at the least damping
-    (['limit', 'limit'], 0.29)
+    >>> curve.ends, round(curve.points[0].groups.amplitude, 2)  # Γ at the least damping
+    (('limit', 'limit'), 0.29)
     """
     equations = CurveEquations(point, path)
     begin = np.append(point.unknown[:2], [np.log(point.groups.amplitude), 0.0])
@@ -240,7 +226,7 @@ def follow_bifurcation_curve(
     with progress_bar(label=progress, unit="points") as shown:
         onwards, last = _side(equations, begin, upwards, limits, longest_step, most, shown)
         first = last
-        if last != CurveEnd.CLOSED:
+        if last != "closed":
             before, first = _side(equations, begin, -upwards, limits, longest_step, most, shown)
     unknowns = [*before[:0:-1], *onwards]
     points = [equations.point(unknown) for unknown in unknowns]
@@ -282,19 +268,19 @@ def follow_grazing_curve(
     >>> grazing = find_bifurcation("grazing", 1, np.array([3.480, 0.9686]), groups)
     >>> path = ParameterPath(damping=1.0, stiffness=0.0)
     >>> curve = follow_grazing_curve(grazing, path, (0.1, 5.0), (-0.5, 0.5), step=0.1)
-    >>> [end.value for end in curve.ends], len(curve.points)
-    (['limit', 'limit'], 11)
+    >>> curve.ends, len(curve.points)
+    (('limit', 'limit'), 11)
     """
     path_points, ends, equations = [(point, 0.0)], [], CurveEquations(point, path)
     with progress_bar(label=progress, unit="points") as shown:
         for direction, end in ((-1.0, reach[0]), (1.0, reach[1])):
-            here, log_ratio, reason = point, 0.0, CurveEnd.LIMIT
+            here, log_ratio, reason = point, 0.0, "limit"
             while abs(log_ratio) < abs(end) and amplitude[0] <= here.groups.amplitude <= amplitude[1]:
                 log_ratio = direction * min(abs(log_ratio) + step, abs(end))
                 groups = equations.groups(np.append(np.zeros(2), [np.log(here.groups.amplitude), log_ratio]))
                 there = find_bifurcation(GRAZING, point.period, here.unknown, groups)
                 if there is None or np.abs(there.unknown - here.unknown).max() > 3.0 * step:
-                    reason = CurveEnd.LOST
+                    reason = "lost"
                     break
                 here = there
                 path_points.append((here, log_ratio))
@@ -358,13 +344,13 @@ def continue_bifurcation(
     points = [(kind, one, part, form, "ok") for one, part, form in zip(*curve[:3], strict=True)]
     for end, next_to_end in ((0, 1), (-1, -2)) if len(points) > 1 else ():
         last = _at_limit(points[end], points[next_to_end], path, around[1])
-        points[end] = (*last[:-1], str(curve.ends[end]))
+        points[end] = (*last[:-1], curve.ends[end])
     rows = points + [(one.kind, one.point, one.log_ratio, np.nan, one.status) for one in curve.meetings]
     kinds, points, parts, forms, status = zip(*rows, strict=True)
     values = back(np.exp(begin + np.array(parts)))
     conveyors = [replace_parameters(row, **{parameter: value}) for value in values.tolist()]
     states = [
-        velocity_for_y(one.groups, one.unknown[:2]) * length_and_speed_units(here)
+        stroboscopic_map.state_of(one.groups, one.unknown[:2]) * length_and_speed_units(here)
         if len(one.unknown) == 3
         else [np.nan] * 2
         for one, here in zip(points, conveyors, strict=True)
@@ -403,22 +389,22 @@ def _side(equations, begin, direction, limits, longest_step, most, shown):
     steps = follow_curve(equations.correct, equations.tangent, begin, direction, **lengths, straight=STRAIGHT)
     for here, there, _, onwards, length in steps:
         if equations.period % 2 == 0 and linear_algebra.dot(equations.halving(here), equations.halving(there)) < 0.0:
-            return unknowns, CurveEnd.HALVED
+            return unknowns, "period halving"
         unknowns.append(there)
         shown.update()
         if not (limits[0] <= there[2] <= limits[1] and limits[2] <= there[3] <= limits[3]):
-            return unknowns, CurveEnd.LIMIT
+            return unknowns, "limit"
         is_near = len(unknowns) > 3 and linear_algebra.length(there - begin) < length
         if is_near and linear_algebra.dot(onwards, begin - there) > 0.0:
-            return [*unknowns, begin], CurveEnd.CLOSED
+            return [*unknowns, begin], "closed"
         if len(unknowns) > most:
-            return unknowns, CurveEnd.LENGTH
-    return unknowns, CurveEnd.LOST if equations.tangent(begin, direction) is None else CurveEnd.STEP
+            return unknowns, "length"
+    return unknowns, "lost" if equations.tangent(begin, direction) is None else "step"
 
 
 def _meetings(equations, unknowns, forms, rights, impacts, ends) -> Iterable[CodimensionTwoPoint]:
     """Points of codimension two on a curve, and grazings at its ends."""
-    if ends[0] == CurveEnd.STEP and len(unknowns) > 1:
+    if ends[0] == "step" and len(unknowns) > 1:
         yield from _grazings(equations, *unknowns[1::-1], "the curve ends here")
     for n in range(len(unknowns) - 1):
         begin, end = unknowns[n], unknowns[n + 1]
@@ -427,7 +413,7 @@ def _meetings(equations, unknowns, forms, rights, impacts, ends) -> Iterable[Cod
             yield from grazings or [CodimensionTwoPoint(GRAZING, equations.point(end), float(end[3]), "not located")]
         if np.sign(forms[n]) * np.sign(forms[n + 1]) < 0.0:
             yield _degenerate(equations, begin, end, lambda one, along=rights[n]: normal_form(one, along)[0])
-    if ends[1] == CurveEnd.STEP and len(unknowns) > 1:
+    if ends[1] == "step" and len(unknowns) > 1:
         yield from _grazings(equations, *unknowns[-2:], "the curve ends here")
 
 

@@ -16,7 +16,7 @@ from scipy.optimize import root
 
 from ... import linear_algebra
 from ...packing import as_rows
-from ...solver import contact, contact_law
+from ...solver import contact
 from ...solver.model import PSI0
 from ...solver.status import OK
 from .. import stroboscopic_map
@@ -60,12 +60,12 @@ class BifurcationPoint(NamedTuple):
 
 def linearise(groups: Groups, state: np.ndarray, period: int, psi0: float = 0.0) -> Linearisation | None:
     """The image of a scaled state (x, y) at the phase ψ0 after `period` cycles, or None where the motion is lost."""
-    here = velocity_for_y(groups, np.array(state, dtype=np.float64))
+    here = stroboscopic_map.state_of(groups, state)
     status, matrices, features = stroboscopic_map.monodromy(packed(groups, psi0), TOLERANCE, here, period, 0.0)
     if status != OK:
         return None
-    matrix = linear_algebra.chain(matrices)
-    return Linearisation(y_for_velocity(groups, here), matrix, int(features[:, stroboscopic_map.IMPACTS].sum()))
+    impacts = int(features[:, stroboscopic_map.IMPACTS].sum())
+    return Linearisation(stroboscopic_map.smooth_state(groups, here), linear_algebra.chain(matrices), impacts)
 
 
 def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | None:
@@ -94,17 +94,7 @@ def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | Non
         status = stroboscopic_map.advance(c, contact.workspace(), here, psi0, remaining, no_tangent, features)
         if status != OK:
             return None
-    return y_for_velocity(groups, here)
-
-
-def y_for_velocity(groups: Groups, state: np.ndarray) -> np.ndarray:
-    """Scaled (x, y) of (x, ẋ)."""
-    return np.array([state[0], contact_law.smooth_speed(groups, state[0], state[1])])
-
-
-def velocity_for_y(groups: Groups, state: np.ndarray) -> np.ndarray:
-    """(x, ẋ) of a scaled state (x, y)."""
-    return np.array([state[0], contact_law.speed_of_approach(groups, state[0], state[1])])
+    return stroboscopic_map.smooth_state(groups, here)
 
 
 def conditions(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> np.ndarray:
@@ -198,7 +188,7 @@ def touching_point(groups: Groups, state: np.ndarray, period: int) -> np.ndarray
     row = packed(groups)
     c = contact.constants(row, TOLERANCE)
     series, features = contact.workspace(), np.zeros(stroboscopic_map.FEATURES)
-    here, no_tangent = velocity_for_y(groups, np.array(state, dtype=np.float64)), np.empty((0, 2))
+    here, no_tangent = stroboscopic_map.state_of(groups, state), np.empty((0, 2))
     passed = []
     step = c.period / MOMENTS
     for n in range(period * MOMENTS):

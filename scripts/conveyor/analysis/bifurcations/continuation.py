@@ -7,6 +7,7 @@ positive and at most 1, so that no other bifurcation of a single orbit is generi
 """
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ from ... import linear_algebra
 from ...arguments import check_choice, check_limits, check_type
 from ...columns import Columns
 from ...progress import progress_bar
+from .bifurcation_points import SIGNS
 from .newton import follow_curve
 from .periodic_orbits import SAME_ORBIT, Orbit, ReturnMap, check_orbit
 
@@ -73,16 +75,10 @@ class Branch(NamedTuple):
         return f"Branch({len(self.orbits)} orbits, {self.parameter} {ends}; {found or 'no bifurcations'})"
 
 
-def fold_test(orbit: Orbit) -> float:
-    """(1 - μ1)(1 - μ2), real for complex multipliers too: zero where a multiplier is +1."""
+def multiplier_test(orbit: Orbit, sign: float) -> float:
+    """(1 ∓ μ1)(1 ∓ μ2), real for complex multipliers too: zero where a multiplier is the sign, ±1."""
     first, second = orbit.multipliers
-    return ((1.0 - first) * (1.0 - second)).real
-
-
-def doubling_test(orbit: Orbit) -> float:
-    """(1 + μ1)(1 + μ2), real for complex multipliers too: zero where a multiplier is -1."""
-    first, second = orbit.multipliers
-    return ((1.0 + first) * (1.0 + second)).real
+    return ((1.0 - sign * first) * (1.0 - sign * second)).real
 
 
 def continue_orbit(orbit: Orbit, parameter: str, limits: Sequence[float], *, progress: str | None = None) -> Branch:
@@ -172,7 +168,8 @@ def bifurcations_between(returns: ReturnMap, before: Orbit, after: Orbit) -> lis
         return None if unknown is None else returns.describe(unknown)
 
     bifurcations = []
-    for kind, test, sign in (("fold", fold_test, 1.0), ("period_doubling", doubling_test, -1.0)):
+    for kind, sign in SIGNS.items():
+        test = partial(multiplier_test, sign=sign)
         if test(before) * test(after) < 0.0 and (part := _zero(at, test)) is not None:
             orbit = at(part)
             if abs(test(orbit)) > JUMP * abs(test(after) - test(before)):

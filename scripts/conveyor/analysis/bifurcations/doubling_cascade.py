@@ -5,7 +5,7 @@ from numpy.typing import ArrayLike
 
 from ...arguments import LARGEST_COORDINATE, check_array
 from ...packing import replace_parameters
-from .continuation import Bifurcation, check_doubling, doubling_test
+from .continuation import Bifurcation, check_doubling, multiplier_test
 from .periodic_orbits import orbit_near, settled_orbit
 
 FEIGENBAUM = 4.669201609102990
@@ -53,16 +53,17 @@ def doubling_cascade(first: Bifurcation, second: Bifurcation) -> list[Bifurcatio
             return cascade
         here = orbit_near(at(last.acceleration + 0.6 * gap), before.state, period)
         for _ in range(SECANT_STEPS):
-            if here is None or abs(doubling_test(here)) <= RESOLVED:
+            if here is None or abs(multiplier_test(here, -1.0)) <= RESOLVED:
                 break
             # A secant step in â, from which Newton's iteration starts on the secant of the states.
-            part = doubling_test(here) / (doubling_test(before) - doubling_test(here))
+            value = multiplier_test(here, -1.0)
+            part = value / (multiplier_test(before, -1.0) - value)
             acceleration = here.acceleration + part * (here.acceleration - before.acceleration)
             state = here.state + part * (here.state - before.state)
             before, here = here, orbit_near(at(acceleration), state, period)
             if abs(acceleration - last.acceleration - gap) > 0.5 * abs(gap) or acceleration == before.acceleration:
                 return cascade
-        if here is None or abs(doubling_test(here)) > RESOLVED:
+        if here is None or abs(multiplier_test(here, -1.0)) > RESOLVED:
             return cascade
         cascade.append(
             Bifurcation("period_doubling", here, min(value.real for value in here.multipliers), "acceleration")

@@ -94,8 +94,8 @@ class ReturnMap:
 
     def scaled(self, value: float, state: np.ndarray) -> np.ndarray:
         """The unknowns of a state (δ in m, v in m/s) at a value of λ in SI units."""
-        constants = self.constants(value / self.unit[2])
-        return np.array([state[0], contact_law.smooth_speed(constants, state[0], state[1]), value]) / self.unit
+        smooth = stroboscopic_map.smooth_state(self.constants(value / self.unit[2]), state)
+        return np.append(smooth, value) / self.unit
 
     def unknown(self, orbit: Orbit) -> np.ndarray:
         """The unknowns of an Orbit."""
@@ -103,8 +103,7 @@ class ReturnMap:
 
     def state(self, unknown: np.ndarray) -> np.ndarray:
         """The state (δ in m, v in m/s) of unknowns."""
-        delta, y, _ = unknown * self.unit
-        return np.array([delta, contact_law.speed_of_approach(self.constants(unknown[2]), delta, y)])
+        return stroboscopic_map.state_of(self.constants(unknown[2]), unknown * self.unit)
 
     def strobes(self, unknown: np.ndarray) -> np.ndarray:
         """Unknowns after 1 … n cycles, shape (n, 3)."""

@@ -17,8 +17,7 @@ from ...parallel import for_each_chunk
 from ...parameters import DEFAULT_TOLERANCE
 from ...solver import contact, contact_law, plate
 from ...solver.jit import compiled_entry
-from ...solver.model import FREQUENCY, PSI0, Conveyor
-from ...solver.pieces import BEGIN_OF_CYCLE
+from ...solver.model import FREQUENCY, Conveyor
 from ...solver.status import NOT_FINITE, OK, STATUS
 from .. import stroboscopic_map
 from ..dimensionless_groups import length_and_speed_units
@@ -40,13 +39,13 @@ SIGNIFICANT = 3.0  # standard errors by which an exponent with a sign differs fr
 
 
 @compiled_entry
-def fill_stretches(parameters, state, tolerance, harmonics, phase, tangent, stretches, contact_times):
+def fill_stretches(parameters, state, tolerance, harmonics, tangent, stretches, contact_times):
     """Follow a trajectory, and the stretching of its perturbations in each cycle; a code of status.STATUS.
 
     Parameters
     ----------
     parameters : float64, shape (16,)
-    state : float64, shape (2,), δ (m) and v (m/s) at the `phase` (rad); replaced by the last state
+    state : float64, shape (2,), δ (m) and v (m/s) at the phase ψ0; replaced by the last state
     tolerance : of the contact steps
     harmonics : as from plate.count_harmonics
     tangent : float64, shape (2, 2), two perturbations; replaced
@@ -60,7 +59,7 @@ def fill_stretches(parameters, state, tolerance, harmonics, phase, tangent, stre
     for n in range(len(stretches)):
         for k in range(2):
             tangent[k, 1] *= c.omega
-        status = stroboscopic_map.advance(c, series, state, phase, c.period, tangent, features)
+        status = stroboscopic_map.advance(c, series, state, c.psi0, c.period, tangent, features)
         if status != OK:
             return status
         for k in range(2):
@@ -78,7 +77,6 @@ def lyapunov_spectrum(
     parameters: Conveyor | np.ndarray,
     states: ArrayLike | None = None,
     *,
-    begin_of_cycle: bool = False,
     transient: int = 200,
     cycles: int = 100,
     blocks: int = 20,
@@ -93,7 +91,6 @@ def lyapunov_spectrum(
     parameters : from `parameter_table`, of any shape with n rows
     states : float64, shape (n, 2), stroboscopic states to begin with (default: the initial conditions in `parameters`);
         NaN for a motion that failed
-    begin_of_cycle : whether `states` are those at pieces.BEGIN_OF_CYCLE, not at ψ0
     transient : excitation cycles that are discarded at the beginning, up to 1e6
     cycles, blocks : mean over `blocks` (2 to 1e4) blocks of `cycles` (1 to 1e6) excitation cycles
     tolerance, threads, progress : as in `sweep`
@@ -115,7 +112,6 @@ def lyapunov_spectrum(
     parameters, shape = check_rows(parameters)
     tolerance = arguments.check_tolerance(tolerance)
     threads = arguments.check_threads(threads)
-    arguments.check_flag("begin_of_cycle", begin_of_cycle)
     arguments.check_count("transient", transient, 0, MOST_CYCLES)
     arguments.check_count("cycles", cycles, 1, MOST_CYCLES)
     arguments.check_count("blocks", blocks, 2, MOST_BLOCKS)
@@ -133,7 +129,6 @@ def lyapunov_spectrum(
     contact_times = np.full((len(parameters), blocks * cycles), np.nan)
     codes = np.zeros(len(parameters), dtype=np.int64)
     harmonics = plate.count_harmonics(parameters)
-    phases = np.full(len(parameters), BEGIN_OF_CYCLE) if begin_of_cycle else parameters[:, PSI0]
 
     def work(begin, end):
         for i in range(begin, end):
@@ -142,7 +137,7 @@ def lyapunov_spectrum(
                 for first in range(0, len(logs), AT_ONCE):
                     if codes[i] == OK:
                         own = logs[first : first + AT_ONCE], contacts[first : first + AT_ONCE]
-                        given = parameters[i], states[i], tolerance, harmonics, phases[i]
+                        given = parameters[i], states[i], tolerance, harmonics
                         codes[i] = fill_stretches(*given, tangent, *own)
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
@@ -166,7 +161,8 @@ def spectrum_from(
 ) -> Columns:
     """Exponents of motions over a number of cycles, from `states`, shape (n, 2), at pieces.BEGIN_OF_CYCLE."""
     counted = {"transient": 0, "cycles": cycles // BLOCKS, "blocks": BLOCKS}
-    return lyapunov_spectrum(parameters, states, begin_of_cycle=True, **counted, tolerance=tolerance, threads=threads)
+    at_top = stroboscopic_map.begin_at_top(parameters)
+    return lyapunov_spectrum(at_top, states, **counted, tolerance=tolerance, threads=threads)
 
 
 def signs(parameters: np.ndarray, states: np.ndarray, *, tolerance: float, threads: int = 1) -> np.ndarray:

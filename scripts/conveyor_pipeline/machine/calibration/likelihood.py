@@ -13,8 +13,9 @@ import numpy as np
 from scipy.stats import qmc
 
 from conveyor import replace_parameters, sample_runs
+from conveyor.analysis.map_states import plate_heights
 from conveyor.elementary import exp, log
-from conveyor.packing import INITIAL_CONDITION, plate_heights, plate_peaks
+from conveyor.packing import INITIAL_CONDITION, plate_peaks
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.machine.calibration.measurements import Measurement
 

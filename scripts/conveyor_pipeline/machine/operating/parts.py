@@ -10,8 +10,8 @@ import numpy as np
 import pandas as pd
 
 from conveyor import Block
+from conveyor.analysis.map_states import plate_heights
 from conveyor.elementary import cos, exp, log, sin
-from conveyor.packing import plate_heights
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.machine.operating.populations import COLUMNS, VARIED

@@ -7,7 +7,6 @@ from conveyor import amplitude_of
 from conveyor.analysis.bifurcations.bifurcation_curves import (
     PATHS,
     BifurcationCurve,
-    CurveEnd,
     follow_bifurcation_curve,
     follow_grazing_curve,
 )
@@ -48,12 +47,12 @@ VARIED = ("damping", "stiffness", "frequency")
 DOUBLINGS = 3  # of the cascade, by an effort of 1
 POINTS = 250  # on each side of a curve, after which it ends
 ENDS = {
-    CurveEnd.LIMIT: "limit of the config",
-    CurveEnd.STEP: "no smooth curve beyond",
-    CurveEnd.LENGTH: f"after {POINTS} points",
-    CurveEnd.CLOSED: "closed",
-    CurveEnd.LOST: "no orbit beyond",
-    CurveEnd.HALVED: "the orbit has half the period here",
+    "limit": "limit of the config",
+    "step": "no smooth curve beyond",
+    "length": f"after {POINTS} points",
+    "closed": "closed",
+    "lost": "no orbit beyond",
+    "period halving": "the orbit has half the period here",
 }
 LIMITS = (0.1, 5.0)  # a_z/g, within which curves are followed
 STEP = 0.1  # longest step in x, y, log of a_z/g and log of the parameter
@@ -82,7 +81,7 @@ def angle_curve(point: BifurcationPoint, angle: float, reach: float) -> Bifurcat
     highest = min(reach, np.log(STEEPEST / angle))
     parts = np.linspace(-reach, highest, 2 * int(np.ceil(reach / STEP)) + 1)
     count = len(parts)
-    ends = CurveEnd.LIMIT, CurveEnd.LIMIT
+    ends = "limit", "limit"
     return BifurcationCurve([point] * count, parts, np.full(count, np.nan), np.zeros(count, np.int64), [], ends)
 
 
