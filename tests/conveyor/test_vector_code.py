@@ -63,7 +63,6 @@ def test_contact_steps_are_vector_code(widest, harmonics, least):
     [
         ("euler", 30, {}),
         ("euler", 30, {"harmonics": [{"order": 2, "normal": 0.1}, {"order": 5, "along": 0.1}]}),
-        ("semi_implicit_euler", 30, {}),
         ("rk4", 90, {"inclination": 0.1, "phase_shift": 0.5, "static_friction": 0.5}),
     ],
 )

@@ -49,14 +49,6 @@ def test_a_file_of_the_repository_is_not_made_again_from_elsewhere(tmp_path):
     assert "output files have to be generated" in snakemake(ROOT.parent, "config/schema.json", *arguments)
 
 
-def test_the_workflow_is_a_module(tmp_path):
-    (tmp_path / "Snakefile").write_text(MODULE.format(snakefile=ROOT / "Snakefile"))
-    (tmp_path / "config.yaml").write_text(CONFIG)
-    snakemake(tmp_path, *IN_PROCESS_OPTIONS, "--configfile", "config.yaml")
-    assert (tmp_path / "figures/mine/fig01.pdf").is_file()
-    assert (tmp_path / "results/mine/sweeps/few.parquet").is_file()
-
-
 MODULE_OF_THE_PAPER = f"""
 module conveyor:
     snakefile: "{ROOT / "Snakefile"}"
@@ -135,7 +127,7 @@ assert scripts.settings.NAME == settings.NAME == "own"
 """
 
 
-def test_a_workflow_with_packages_of_its_own(tmp_path):
+def test_the_workflow_is_a_module_of_a_workflow_with_packages_of_its_own(tmp_path):
     """Named as the folders of this project, and imported before and after its module."""
     for name in ("workflow", "scripts", "docs", "figures", "pipeline"):
         (tmp_path / name).mkdir()

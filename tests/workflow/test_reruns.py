@@ -25,9 +25,9 @@ def test_one_plot_after_a_line_width(edited):
     assert project.planned(*TARGETS) == {"plot": 1}
 
 
-def test_all_plots_after_the_style(edited):
+def test_all_plots_and_the_companion_after_the_style(edited):
     project = edited("scripts/conveyor_pipeline/figures/style.py", '"#0072B2"', '"#123456"')
-    assert project.planned(*TARGETS) == PLOTS
+    assert project.planned(*TARGETS, "docs/companion.html") == PLOTS | {"companion": 1}
 
 
 def test_simulations_after_the_contact(edited):
@@ -40,23 +40,13 @@ def test_no_labels_after_the_pairs_of_trajectories(edited):
     assert project.planned(*TARGETS) == {"estimates": 2, "plot": 1}
 
 
-@pytest.mark.parametrize(
-    ("file", "old", "new"),
-    [
-        (
-            "scripts/conveyor_pipeline/pages/companion/solver.js",
-            "const CYCLE_STEP = 1 / 1000;",
-            "const CYCLE_STEP = 1 / 500;",
-        ),
-        ("scripts/conveyor_pipeline/figures/style.py", '"#0072B2"', '"#123456"'),
-    ],
-)
-def test_the_companion_after_its_sources(edited, file, old, new):
-    assert edited(file, old, new).planned("docs/companion.html") == {"companion": 1}
+def test_the_companion_after_its_solver(edited):
+    file = "scripts/conveyor_pipeline/pages/companion/solver.js"
+    project = edited(file, "const CYCLE_STEP = 1 / 1000;", "const CYCLE_STEP = 1 / 500;")
+    assert project.planned("docs/companion.html") == {"companion": 1}
 
 
 def test_the_companion_after_its_model(built):
-    assert built.planned("docs/companion.html") == {}
     changed = {"companion": {"presets": {"first": {"z0": 1.0e-5}}}}
     assert built.under(changed).planned("docs/companion.html") == {"companion": 1}
 

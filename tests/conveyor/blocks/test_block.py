@@ -65,9 +65,15 @@ def test_a_block_that_cannot_turn_is_a_point(acceleration, z, tension):
     assert block.z_end == pytest.approx(point.z_end, rel=1e-6, abs=1e-9)
 
 
-def test_a_locked_block_is_a_point_on_a_tilted_track_with_harmonics_and_static_friction():
+@pytest.mark.parametrize(
+    "harmonics",
+    # All code of blocks is compiled once more for plates with harmonics.
+    [(), pytest.param((Harmonic(2, 0.1, 0.3, 0.2, -0.4),), marks=pytest.mark.long)],
+    ids=["pure", "harmonic"],
+)
+def test_a_locked_block_is_a_point_on_a_tilted_track_with_static_friction(harmonics):
     model = {"inclination": 0.05, "phase_shift": 0.4, "static_friction": 0.2, "exponent": 1.2, "stiffness": 3e4}
-    conveyor = Conveyor(**model, acceleration=45.0, harmonics=(Harmonic(2, 0.1, 0.3, 0.2, -0.4),))
+    conveyor = Conveyor(**model, acceleration=45.0, harmonics=harmonics)
     block = simulate_block(conveyor, replace(FLAT, inertia=LOCKED), Start(z=2e-4), duration=0.2, tolerance=1e-9)
     point = simulate(conveyor, Start(z=2e-4), duration=0.2, tolerance=1e-12)
     assert block.x_end == pytest.approx(point.x_end, rel=1e-5)
@@ -333,16 +339,3 @@ def test_random_blocks_do_not_fall_through_the_plate(seed, length, height, tilt)
     power, spring = conveyor.exponent + 1.0, 0.5 * conveyor.stiffness / conveyor.mass / (conveyor.exponent + 1.0)
     depth = (2.0 * energy / spring) ** (1.0 / power) + (2.0 * pull / spring) ** (1.0 / conveyor.exponent)
     assert -gaps.min() <= 1.1 * depth
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ({"length": -1.0, "height": 1.0}, "length"),
-        ({"length": 1.0, "height": "a"}, "height"),
-        ({"length": 1.0, "height": 1.0, "inertia": 0.0}, "inertia"),
-    ],
-)
-def test_a_block_names_the_number_that_cannot_be_used(arguments, words):
-    with pytest.raises(ValueError, match=words):
-        Block(**arguments)

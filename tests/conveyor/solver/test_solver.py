@@ -11,8 +11,7 @@ from scipy.integrate import quad, simpson
 from scipy.linalg import expm
 
 from conveyor import Conveyor, Start, simulate
-from conveyor.solver import trajectory as trajectory_module
-from conveyor.solver.model import pack, plate_motion
+from conveyor.solver.model import plate_motion
 from conveyor.solver.pieces import MAX_PIECES
 
 AT_REST = Conveyor(acceleration=0.0)
@@ -251,24 +250,6 @@ def test_a_contact_that_is_too_stiff_is_a_status():
     assert run.work <= MAX_PIECES
 
 
-@pytest.mark.parametrize(
-    ("call", "name"),
-    [
-        (lambda: Conveyor(mass=-1.0), "mass"),
-        (lambda: Conveyor(angle=12.0), "angle"),
-        (lambda: Conveyor(tension="pull"), "tension"),
-        (lambda: Start(z="plate"), "z0"),
-        (lambda: simulate(Conveyor(), duration=0.0), "duration"),
-        (lambda: simulate(Conveyor(), tolerance=0.0), "tolerance"),
-        (lambda: simulate(Conveyor(), method="magic"), "method"),
-        (lambda: simulate(Conveyor(), duration=0.1).sample(np.array([0.2])), "times"),
-    ],
-)
-def test_errors_name_the_fault(call, name):
-    with pytest.raises(ValueError, match=name):
-        call()
-
-
 @pytest.mark.parametrize("acceleration", [0.0, 1e-300, 2.220446049250313e-16, 1e-9])
 def test_a_nearly_still_plate_is_not_passed(acceleration):
     """An undamped part on a plate at rest returns to its height, unless a root is lost to cancellation."""
@@ -310,17 +291,6 @@ def test_steps_of_a_settled_motion_are_used_again(acceleration):
     assert (long.z_end, long.vz_end) == pytest.approx((tight.z_end, tight.vz_end), rel=1e-7)
     assert long.impacts == tight.impacts
     assert len(long.events) == len(tight.events)
-
-
-def test_runs_are_compiled_once_for_all_layouts_of_times():
-    """Numba compiles a kernel for each layout of an array, which takes seconds here."""
-    parameters = np.tile(pack(Conveyor(acceleration=40.0), Start()), (2, 1))
-    by_columns = np.linspace(0.0, [0.01, 0.02], 3, axis=1)
-    assert not by_columns.flags.c_contiguous
-    by_rows, _ = trajectory_module.integrate(parameters, np.ascontiguousarray(by_columns), tolerance=1e-6)
-    compiled = list(trajectory_module.follow.__wrapped__.signatures)
-    np.testing.assert_array_equal(trajectory_module.integrate(parameters, by_columns, tolerance=1e-6)[0], by_rows)
-    assert trajectory_module.follow.__wrapped__.signatures == compiled
 
 
 @pytest.mark.parametrize("acceleration", [2.0, 8.0])

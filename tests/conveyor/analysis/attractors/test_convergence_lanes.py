@@ -40,9 +40,12 @@ def test_bits_of_random_initial_conditions():
 
 
 def test_bits_of_plates_with_harmonics():
-    """Conveyors with one number of harmonics, of different orders; some contacts are not for lanes."""
+    """Conveyors with two harmonics of different orders; some contacts are not for lanes."""
     rng = np.random.default_rng(5)
-    waves = [[{"order": int(k), "normal": 0.1, "along": rng.uniform(0.0, 0.2)}] for k in rng.integers(2, 7, 30)]
+    waves = [
+        [{"order": int(k), "normal": 0.1, "along": rng.uniform(0.0, 0.2)}, {"order": 7, "along": 0.1}]
+        for k in rng.integers(2, 7, 30)
+    ]
     contacts = [{}, {}, {"exponent": 1.0}, {"phase_shift": 0.3}, {"tension": "clip"}] * 6
     parameters = np.array(
         [

@@ -116,8 +116,8 @@ def test_slow_orbits_have_neighbourhoods_in_which_motions_stay():
     row = conveyor_of(42.31691002563875, **SLOW_CONVEYOR)
     orbits = find_attractors(row[None], cycles=20_000, tolerance=TOLERANCE).orbits
     (slow,) = np.flatnonzero((orbits.periods == 2) & (orbits.flights * 60.0 < 1.0))
-    starts = inside(row, orbits.centres[slow], orbits.factors[slow], 12)
-    motions = sampling.follow(np.tile(row, (12, 1)), starts, 20_000, TOLERANCE)
+    starts = inside(row, orbits.centres[slow], orbits.factors[slow], 6)
+    motions = sampling.follow(np.tile(row, (6, 1)), starts, 20_000, TOLERANCE)
     assert (motions.followed > 1000).all()
     assert (motions.periods == 2).all()
     np.testing.assert_allclose(motions.flights, orbits.flights[slow], rtol=1e-3)
