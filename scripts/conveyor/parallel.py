@@ -17,7 +17,7 @@ of_thread = threading.local()
 
 # The first range of a thread is this share of a chunk. Each following one grows by at most GROWTH, and takes about
 # SECONDS, so that Ctrl-C and progress bars do not wait for long.
-FIRST, GROWTH, SECONDS = 1.0 / 512.0, 4.0, 0.5
+FIRST, GROWTH, SECONDS = 1.0 / 512.0, 4.0, 1.0
 # Towards the end ranges get shorter: this share of a thread's part of the rest, but at least this share of a chunk.
 OF_THE_REST, OF_A_CHUNK = 0.5, 0.03
 
@@ -54,7 +54,7 @@ def for_each_chunk(
 ) -> None:
     """Call `work(begin, end)` for consecutive ranges that cover range(count), on `threads` threads.
 
-    Ranges have at most the length `chunk`, and take about half a second; with several threads they get shorter towards
+    Ranges have at most the length `chunk`, and take about a second; with several threads they get shorter towards
     the end, so that no thread waits long for another one. `work` must write only to its range; then the result depends
     neither on `threads` nor on `chunk`. It may return the number of its points that have failed. An exception in `work`
     ends the loop and is raised here. `progress` is the label of a progress bar on stderr with rate, time left and
@@ -105,8 +105,7 @@ def for_each_chunk(
             for stop in tuple(stops):
                 stop()
 
-        ranges = -(-count // chunk)
-        futures = [other_threads(threads - 1).submit(take) for _ in range(min(threads, ranges) - 1)]
+        futures = [other_threads(threads - 1).submit(take) for _ in range(min(threads, count) - 1)]
         try:
             # The calling thread works, too, so that its processor time is all of the time if it is the only thread.
             take()

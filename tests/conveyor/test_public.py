@@ -467,6 +467,7 @@ def test_long_functions_show_one_bar(orbit, capsys):
         "continue_bifurcation": lambda label: conveyor.continue_bifurcation(
             doubling(), "damping", (0.25, 0.35), progress=label
         ),
+        "doubling_cascade": lambda label: conveyor.doubling_cascade(doubling(), second_doubling(), progress=label),
     }
     for name, call in calls.items():
         call(name)

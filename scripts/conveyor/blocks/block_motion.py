@@ -37,7 +37,7 @@ from conveyor.blocks.corners import (
 from conveyor.blocks.steps import PULL, STAGES, TOUCH, first_event, interpolate, take_step
 from conveyor.solver import contact, plate
 from conveyor.solver.flight import time_of_fall
-from conveyor.solver.jit import compiled, no_refcount
+from conveyor.solver.jit import compiled, compiled_entry, no_refcount
 from conveyor.solver.model import VZ0, Z0
 from conveyor.solver.status import IMPACT_LOST, NOT_FINITE, OK, TOO_MANY_EVENTS, TOO_STIFF
 
@@ -141,7 +141,7 @@ def repeats(c, body, before, between):
     return linear and turning and abs(between[Z] - before[Z]) <= depth
 
 
-@compiled
+@compiled_entry
 def follow(
     parameters, harmonics, bodies, tilts, tolerance, times, since, samples, distances, arrivals, results, workspace
 ):

@@ -5,6 +5,7 @@ from numpy.typing import ArrayLike
 
 from ...arguments import LARGEST_COORDINATE, check_array
 from ...packing import replace_parameters
+from ...progress import progress_bar
 from .continuation import Bifurcation, check_doubling, multiplier_test
 from .periodic_orbits import orbit_near, settled_orbit
 
@@ -13,7 +14,7 @@ RESOLVED = 1e-6  # of 1 + μ at a doubling of the cascade: six digits of its dis
 SECANT_STEPS = 12  # after which a doubling of the cascade is not resolved
 
 
-def doubling_cascade(first: Bifurcation, second: Bifurcation) -> list[Bifurcation]:
+def doubling_cascade(first: Bifurcation, second: Bifurcation, *, progress: str | None = None) -> list[Bifurcation]:
     """Two successive period doublings and the doublings behind them, as far as double precision resolves them.
 
     The distance between doublings shrinks by Feigenbaum's ratio each time. Halfway to the next doubling the doubled
@@ -23,6 +24,7 @@ def doubling_cascade(first: Bifurcation, second: Bifurcation) -> list[Bifurcatio
     Parameters
     ----------
     first, second : period doublings in the amplitude, the second one of the doubled orbit
+    progress : as in `sweep`; the bar counts doublings, whose number is not known before
 
     Examples
     --------
@@ -40,34 +42,40 @@ def doubling_cascade(first: Bifurcation, second: Bifurcation) -> list[Bifurcatio
     if second.orbit.period != 2 * first.orbit.period:
         raise ValueError(f"second has the period {second.orbit.period}, not twice the period of first")
     cascade = [first, second]
+    with progress_bar(label=progress, unit="doublings") as shown:
+        while (doubling := next_doubling(*cascade[-2:])) is not None:
+            cascade.append(doubling)
+            shown.update()
+    return cascade
+
+
+def next_doubling(first: Bifurcation, second: Bifurcation) -> Bifurcation | None:
+    """The period doubling behind two successive ones; None where double precision or the guess does not reach it."""
+    last = second.orbit
+    gap = (last.acceleration - first.orbit.acceleration) / FEIGENBAUM
+    period = 2 * last.period
 
     def at(acceleration):
-        return replace_parameters(first.orbit.parameters, acceleration=acceleration)
+        return replace_parameters(last.parameters, acceleration=acceleration)
 
-    while True:
-        last = cascade[-1].orbit
-        gap = (last.acceleration - cascade[-2].orbit.acceleration) / FEIGENBAUM
-        period = 2 * last.period
-        before = settled_orbit(at(last.acceleration + 0.5 * gap), last.state, (period,), 30 * period)
-        if before is None:
-            return cascade
-        here = orbit_near(at(last.acceleration + 0.6 * gap), before.state, period)
-        for _ in range(SECANT_STEPS):
-            if here is None or abs(multiplier_test(here, -1.0)) <= RESOLVED:
-                break
-            # A secant step in â, from which Newton's iteration starts on the secant of the states.
-            value = multiplier_test(here, -1.0)
-            part = value / (multiplier_test(before, -1.0) - value)
-            acceleration = here.acceleration + part * (here.acceleration - before.acceleration)
-            state = here.state + part * (here.state - before.state)
-            before, here = here, orbit_near(at(acceleration), state, period)
-            if abs(acceleration - last.acceleration - gap) > 0.5 * abs(gap) or acceleration == before.acceleration:
-                return cascade
-        if here is None or abs(multiplier_test(here, -1.0)) > RESOLVED:
-            return cascade
-        cascade.append(
-            Bifurcation("period_doubling", here, min(value.real for value in here.multipliers), "acceleration")
-        )
+    before = settled_orbit(at(last.acceleration + 0.5 * gap), last.state, (period,), 30 * period)
+    if before is None:
+        return None
+    here = orbit_near(at(last.acceleration + 0.6 * gap), before.state, period)
+    for _ in range(SECANT_STEPS):
+        if here is None or abs(multiplier_test(here, -1.0)) <= RESOLVED:
+            break
+        # A secant step in â, from which Newton's iteration starts on the secant of the states.
+        value = multiplier_test(here, -1.0)
+        part = value / (multiplier_test(before, -1.0) - value)
+        acceleration = here.acceleration + part * (here.acceleration - before.acceleration)
+        state = here.state + part * (here.state - before.state)
+        before, here = here, orbit_near(at(acceleration), state, period)
+        if abs(acceleration - last.acceleration - gap) > 0.5 * abs(gap) or acceleration == before.acceleration:
+            return None
+    if here is None or abs(multiplier_test(here, -1.0)) > RESOLVED:
+        return None
+    return Bifurcation("period_doubling", here, min(value.real for value in here.multipliers), "acceleration")
 
 
 def check_series(amplitudes: object) -> np.ndarray:
