@@ -47,7 +47,7 @@ rule benchmark:
 
 # The tables that each table of the rule `accuracy` is made from; most are made from the config alone.
 COMPARED_TABLES = {
-    "stability": {},
+    **dict.fromkeys(("stability", "settling_times"), {}),
     "map_check": {"maps": [table(f"sweeps/{name}") for name in config["map_check"]["maps"]]},
     "theory": tables_of("orbits/cascade"),
 }

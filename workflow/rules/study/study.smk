@@ -1,6 +1,6 @@
 # The floor study: what methods cost, and where they fail.
 
-STUDY_FIGURES = listed_figures("work_precision", "stability", "scene_budget")
+STUDY_FIGURES = listed_figures("work_precision", "stability", "scene_budget", "settling")
 
 
 include: "accuracy.smk"

@@ -42,6 +42,7 @@ SECTIONS = {
     "stability": mapping("limits of stability of the methods", {"effort": Effort}),
     "scene_budget": described(SceneBudget, "accuracy that each figure needs"),
     "map_check": described(MapCheck, "check of state maps by brute force"),
+    "settling_times": mapping("time until a motion settles", {"effort": Effort}),
 }
 # Points of a table of each section that are compared with a more accurate solution, by an effort of 1.
 BUDGETED = {
@@ -73,12 +74,18 @@ def scene_budget_settings(config: dict) -> dict:
     return {"points": points, "reasons": own["reasons"]}
 
 
+def settling_settings(config: dict) -> dict:
+    solver = {key: config["solver"][key] for key in ("tolerance", "settling")}
+    return {**solver, **config["settling_times"], "model": model_of(config, normal=True)}
+
+
 # The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     "results/stability": itemgetter("stability"),
     "results/theory": lambda config: {"model": model_of(config)},
     **dict.fromkeys(("results/scene_budget", "results/budget_times"), scene_budget_settings),
     "results/map_check": itemgetter("map_check"),
+    "results/settling_times": settling_settings,
 }
 # Kinds of tables with one table for each scene.
 TABLE_FAMILIES = dict.fromkeys(("precision", "precision_times"), (tuple(SCENES), precision_settings))
