@@ -196,7 +196,7 @@ BOWL_CONTACT = {"friction": 0.36, "damping": 1.0, "stiffness": 1.1e6}
 def test_a_trial_of_twenty_velocities_of_the_model_itself_gives_no_verdict(capsys):
     """Its search has not converged, and says only that, in the tables and on the page."""
     settings = settings_of(si_config(), "calibration/parameters")
-    settings |= {"model": settings["model"] | BOWL, "measurements": "mine.csv", "effort": 0.3}
+    settings |= {"model": settings["model"] | BOWL, "measurements": "mine.csv", "effort": 0.1}
     settings |= {"height": [0.0, 1.2e-4], "vz0": [-0.1, 0.1]}
     amplitudes = np.repeat(np.linspace(0.6, 1.0, 10) * 9.81 / math.sin(BOWL["angle"]), 2)
     random = np.random.default_rng(3)
@@ -221,10 +221,12 @@ def test_a_trial_of_twenty_velocities_of_the_model_itself_gives_no_verdict(capsy
 
 
 def test_results_do_not_depend_on_the_threads():
-    short = SETTINGS | {"first": 40, "points": 20, "rounds": 2, "checked": 2}
-    one, two = (calibrate(measured(), short, threads=threads) for threads in (1, 2))
-    for name in one:
-        pd.testing.assert_frame_equal(pd.DataFrame(one[name]), pd.DataFrame(two[name]), check_exact=True)
+    short = SETTINGS | {"first": 40, "points": 20, "rough_rounds": 2, "rounds": 2}
+    data = data_of(measured(), MODEL)
+    one, two = (search(data, short, searches=(1, 1), threads=threads) for threads in (1, 2))
+    assert np.isfinite(one.weights).all() and len(one.points) > 40
+    for first, second in zip(one, two, strict=True):
+        np.testing.assert_array_equal(first, second)
 
 
 def test_the_prediction_covers_the_measured_amplitudes_and_the_next_measurement_lies_near(found):
