@@ -1,6 +1,7 @@
 """The code that runs is the code that the rules hash, whatever else is installed or set in the environment."""
 
 import os
+import shutil
 
 import pytest
 from project import Project
@@ -8,14 +9,31 @@ from project import Project
 TABLE = "results/sweeps/on_plate.parquet"
 
 
-def test_jobs_import_the_library_of_the_project(copied, tmp_path):
-    """Not an installed one, as after `pip install .`; a change of the project's would then be hashed but not run."""
-    other = tmp_path / "conveyor/__init__.py"
-    other.parent.mkdir()
+@pytest.fixture
+def shadowed(copied, tmp_path):
+    """A copy of the built project, and another package `conveyor`, which comes before installed packages."""
+    other = tmp_path / "site/conveyor/__init__.py"
+    other.parent.mkdir(parents=True)
     other.write_text("raise ImportError('this is the installed copy')")
-    project = Project(copied.folder, environment={"PYTHONPATH": str(tmp_path)})
+    return Project(copied.folder, environment={"PYTHONPATH": str(other.parents[1])}), other
+
+
+def test_jobs_import_the_library_of_the_project(shadowed):
+    """Not an installed one, as after `pip install .`; a change of the project's would then be hashed but not run."""
+    project, _ = shadowed
     run = project.snakemake("--cores", "1", "--force", TABLE)
     assert run.returncode == 0, run.stdout
+
+
+def test_a_job_that_would_run_other_code_names_both(shadowed):
+    """Here Python imports the other package at its start, before the script can put the project first."""
+    project, other = shadowed
+    shutil.copytree(project.folder / "scripts/conveyor", other.parent, dirs_exist_ok=True)
+    (other.parents[1] / "sitecustomize.py").write_text("import conveyor")
+    run = project.snakemake("--cores", "1", "--force", TABLE)
+    assert run.returncode != 0
+    assert f"would run {other}, but the rules hash {project.folder}/scripts/conveyor" in run.stdout.replace("\n", " ")
+    assert not (project.folder / TABLE).exists()
 
 
 @pytest.fixture

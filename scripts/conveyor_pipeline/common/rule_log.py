@@ -1,5 +1,6 @@
 """The log of a rule: the stderr of its script, and the traceback if it fails."""
 
+import importlib.util
 import os
 import sys
 import traceback
@@ -7,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from typing import TextIO
 
-from conveyor_pipeline.common.code_state import STATE, code_state
+from conveyor_pipeline.common.code_state import SCRIPTS, STATE, code_state
 
 COMPILED = "Time to compile: "  # a line in the log of a job that compiled functions
 
@@ -41,6 +42,22 @@ class Tee:
         self.log.write(visible_text(self.line))
 
 
+def check_imports() -> None:
+    """Check that the packages of this project come from the folder whose code the rules hash.
+
+    Raises
+    ------
+    JobError
+        names the folder and a package that was imported from elsewhere; its tables would be taken for up to date
+    """
+    for package in sorted(path.parent for path in SCRIPTS.glob("*/__init__.py")):
+        if (origin := importlib.util.find_spec(package.name).origin) != str(package / "__init__.py"):
+            raise JobError(
+                f"this job would run {origin}, but the rules hash {package}; uninstall the package {package.name}, or "
+                "remove its folder from PYTHONPATH"
+            )
+
+
 def check_code(hashed: str) -> None:
     """Check that the code of a job is still the one that the Snakefile hashed: its param `code`.
 
@@ -72,6 +89,7 @@ def logged(path: str) -> Iterator[None]:
     with open(path, "w", encoding="utf-8") as log, closing(Tee(terminal, log)) as both:
         sys.stderr = both
         try:
+            check_imports()
             yield
         except JobError as error:
             print(error, file=both.log)
