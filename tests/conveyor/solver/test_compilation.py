@@ -12,25 +12,21 @@ from project import ROOT
 
 from conveyor.solver.compilation import LONGEST_WAIT, NOTICE
 
-# The value 0.5 of 1 - 2 s, by two functions, so that a notice for each would be seen; both are quick to compile.
-VALUE_OF_LINE = """
-from conveyor.solver import contact, polynomial
+# A root of 1 - 2 s, by several functions, so that a notice for each would be seen.
+ROOT_OF_LINE = """
+import numpy as np
+from conveyor.solver import polynomial
 from conveyor.solver.compilation import compile_seconds
 
-series = contact.workspace()
+series = np.zeros(polynomial.SIZE)
 series[:2] = 1.0, -2.0
-print(polynomial.expand_about(series, polynomial.FIRST_ROW, 0.25)[0])
+print(polynomial.first_root(series, polynomial.FIRST_ROW, 0.0, 1.0, polynomial.LEAVE))
 print(compile_seconds())
 """
-# The root 0.5 of the same line.
-ROOT_OF_LINE = VALUE_OF_LINE.replace(
-    "expand_about(series, polynomial.FIRST_ROW, 0.25)[0]",
-    "first_root(series, polynomial.FIRST_ROW, 0.0, 1.0, polynomial.LEAVE)",
-)
-# The functions that numba compiles for a contact step on a pure plate, then for one with a harmonic.
+# The functions that numba compiles for a contact step and Euler steps on a pure plate, then for one with a harmonic.
 FUNCTIONS_BY_PLATE = """
 from numba.core.event import install_recorder
-from conveyor import Conveyor, Start
+from conveyor import Conveyor, Start, simulate
 from conveyor.solver import contact, plate
 from conveyor.solver.model import pack
 from conveyor.solver.workspace import FIRST
@@ -39,6 +35,7 @@ with install_recorder("numba:compile") as recorder:
     c = contact.constants(pack(Conveyor(), Start()), 1e-10)
     contact.begin_step(c, contact.workspace(), FIRST, 0.0, 0.3, 0.0, 1.0, False)
     plate.height_and_rise(c, 0.0, 1.0)
+    simulate(Conveyor(), duration=1e-3, method="euler", step=1e-5)
     pure = len(recorder.buffer)
     c = contact.constants(pack(Conveyor(harmonics=[{"order": 2, "normal": 0.1}]), Start()), 1e-10)
     plate.height_and_rise(c, 0.0, 1.0)
@@ -68,18 +65,12 @@ print(len(trajectory.follow.__wrapped__.signatures))
 LOCK = "conveyor/compiling-others.lock"
 LOCK_OF_EVENTS = "conveyor/compiling-conveyor.solver.trajectory.follow.lock"
 FIXED_STEPS = """
-from numba.core.event import install_recorder
 from conveyor import Conveyor, simulate
 from conveyor.solver import compilation
 
-with install_recorder("numba:compile") as recorder:
-    simulate(Conveyor(acceleration=30.0), duration=0.01, method="euler", step=1e-6)
-print(*{event.data["dispatcher"].py_func.__name__ for _, event in recorder.buffer})
+simulate(Conveyor(acceleration=30.0), duration=0.01, method="euler", step=1e-6)
 print(compilation.compile_seconds())
 """
-# These functions serve plates with harmonics only.
-OF_HARMONICS = {"add_harmonic", "multiple", "numbers_of"}
-OF_HARMONICS |= {"add_sums", "begin_waves", "expand_harmonic_hertz", "numbers_at", "rows_of_wave"}
 IMPATIENT = """
 from conveyor.solver import compilation
 compilation.LONGEST_WAIT = 0.1
@@ -114,31 +105,35 @@ def run(tmp_path):
 
 
 def test_the_notice_comes_once_and_not_from_the_cache(run):
-    first, later = run(VALUE_OF_LINE), run(VALUE_OF_LINE)
+    first, later = run(ROOT_OF_LINE), run(ROOT_OF_LINE)
     assert first.stderr == f"{NOTICE}\n"
     assert float(first.stdout.split()[-1]) > 0.0
     assert later.stderr == ""
     assert float(later.stdout.split()[-1]) == 0.0
 
 
-@pytest.mark.parametrize("code", [VALUE_OF_LINE, FIXED_STEPS], ids=["others", "entry"])
-def test_of_processes_that_start_together_one_compiles_and_none_waits_for_another_entry(run, tmp_path, code):
-    (tmp_path / "conveyor").mkdir()
-    with FileLock(tmp_path / LOCK_OF_EVENTS), ThreadPoolExecutor() as threads:
+@pytest.mark.parametrize("code", [ROOT_OF_LINE, FIXED_STEPS], ids=["others", "entry"])
+def test_of_processes_that_start_together_one_compiles(run, code):
+    with ThreadPoolExecutor() as threads:
         found = list(threads.map(run, [code] * 3))
     assert sorted(each.stderr for each in found) == ["", "", f"{NOTICE}\n"]
     seconds = sorted(float(each.stdout.split()[-1]) for each in found)
     assert seconds[:2] == [0.0, 0.0] < seconds[2:]
-    # The plate of the fixed steps has no harmonics.
-    assert not OF_HARMONICS & {word for each in found for word in each.stdout.split()}
 
 
 def test_a_process_does_not_wait_for_ever(run, tmp_path):
     """The process that compiles may have been suspended."""
     (tmp_path / "conveyor").mkdir()
     with FileLock(tmp_path / LOCK):
-        found = run(IMPATIENT + VALUE_OF_LINE)
+        found = run(IMPATIENT + ROOT_OF_LINE)
     assert [float(number) > 0.0 for number in found.stdout.split()] == [True, True]
+
+
+def test_an_entry_does_not_wait_for_another(run, tmp_path):
+    (tmp_path / "conveyor").mkdir()
+    with FileLock(tmp_path / LOCK_OF_EVENTS):
+        found = run(FIXED_STEPS)
+    assert float(found.stdout) > 0.0
 
 
 def test_a_killed_process_leaves_no_lock(run, tmp_path):
@@ -147,14 +142,18 @@ def test_a_killed_process_leaves_no_lock(run, tmp_path):
     with subprocess.Popen(command, stdout=subprocess.PIPE) as holder:
         holder.stdout.readline()
         holder.send_signal(signal.SIGKILL)
-    assert float(run(VALUE_OF_LINE).stdout.split()[0]) == 0.5
+    assert float(run(ROOT_OF_LINE).stdout.split()[0]) == 0.5
 
 
 def test_a_plate_without_harmonics_compiles_no_code_of_harmonics(run):
+    of_harmonics = {"add_harmonic", "multiple", "numbers_of"}
     pure, harmonic = (set(line.split()) for line in run(FUNCTIONS_BY_PLATE).stdout.splitlines())
     assert {"expand_hertz", "expand_other", "height_and_rise"} <= pure
-    assert not pure & OF_HARMONICS
-    assert {"add_harmonic", "multiple", "numbers_of"} <= harmonic
+    # These functions serve plates with harmonics only.
+    assert not pure & (
+        of_harmonics | {"add_sums", "begin_waves", "expand_harmonic_hertz", "numbers_at", "rows_of_wave"}
+    )
+    assert of_harmonics <= harmonic
 
 
 def test_one_solver_follows_all_runs(run):
@@ -165,7 +164,7 @@ def test_one_solver_follows_all_runs(run):
 
 def test_the_notice_and_the_time_are_in_the_log_of_a_rule(run, tmp_path):
     code = f"from conveyor_pipeline.common.rule_log import logged\nwith logged('{tmp_path}/rule.log'):\n"
-    run(code + VALUE_OF_LINE.replace("\n", "\n    "))
+    run(code + ROOT_OF_LINE.replace("\n", "\n    "))
     assert (tmp_path / "rule.log").read_text() == f"{NOTICE}\n"
 
 
