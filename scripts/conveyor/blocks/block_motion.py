@@ -241,7 +241,7 @@ def follow(
             # Samples and arrivals in this piece; at the end of the run, all that is left.
             while result[SAMPLED] < times.shape[1]:
                 moment = times[i, int(result[SAMPLED])]
-                if moment > t + lapse and t + lapse < end:
+                if moment > t + lapse and lapse < end - t:
                     break
                 if flying:
                     fly(state, c.gravity, c.downhill, moment - t, between)

@@ -6,7 +6,7 @@ from time import process_time
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from random_conveyors import around_the_paper, tilted
 from scipy.integrate import quad, solve_ivp
@@ -320,6 +320,7 @@ SIZES = st.floats(math.log(1e-4), math.log(0.1)).map(math.exp)
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**32 - 1), SIZES, SIZES, st.floats(-1.5, 1.5))
+@example(2240550, math.exp(-8.0), math.exp(-8.0), 0.0)  # the times of its last piece add up to less than its duration
 def test_random_blocks_do_not_fall_through_the_plate(seed, length, height, tilt):
     conveyor, _ = unpack(tilted(around_the_paper(1, seed), seed)[0])
     block, begin = Block(length, height), process_time()
