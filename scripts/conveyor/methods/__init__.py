@@ -1,1 +1,1 @@
-"""What the solver is compared with: fixed steps, SciPy."""
+"""What the solver is compared with: fixed steps, and the model for integrators of SciPy."""

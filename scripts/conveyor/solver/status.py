@@ -6,11 +6,5 @@ STATUS = (
     "contact too stiff",
     "impact not found",
     "not finite",
-    "gave up",
-    "stuck at an event",
-    "step too small",
-    "event lost",
 )
 OK, TOO_MANY_EVENTS, TOO_STIFF, IMPACT_LOST, NOT_FINITE = range(5)
-# Of SciPy's integrators only.
-GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST = range(5, 9)

@@ -14,9 +14,10 @@ import numpy as np
 import pandas as pd
 
 from conveyor import Conveyor, Run, Start, classify, parameter_table, plate_motion, restart, simulate
-from conveyor.methods import fixed_step, modes, scipy_integrators
+from conveyor.methods import fixed_step, modes
 from conveyor.solver.polynomial import ORDER
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.study.accuracy import scipy_integrators
 from conveyor_pipeline.study.accuracy.scenes import TRUTH
 from conveyor_pipeline.study.accuracy.timing import run_in_turns
 
@@ -49,10 +50,9 @@ SAMPLE_INTERVAL = (
 )
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13)
 STEPS = (1e-3, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7)  # s
-# Relative tolerances of SciPy's integrators, by how they treat impacts and slip reversals
-# (conveyor.methods.scipy_integrators). They take most of the time of this table, so that they run with as few
-# tolerances as show their curves and failures: with `sign`, tighter tolerances take more evaluations than allowed, and
-# only `modes` is worth many tolerances.
+# Relative tolerances of SciPy's integrators, by how they treat impacts and slip reversals (see scipy_integrators). They
+# take most of the time of this table, so that they run with as few tolerances as show their curves and failures: with
+# `sign`, tighter tolerances take more evaluations than allowed, and only `modes` is worth many tolerances.
 SCIPY = {
     "sign": {
         "RK45": (1e-4, 1e-6),

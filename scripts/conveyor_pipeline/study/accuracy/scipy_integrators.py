@@ -18,13 +18,14 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ..packing import as_rows, refuse_harmonics
-from ..parameters import LAST
-from ..solver import model
-from ..solver.status import EVENT_LOST, GAVE_UP, NOT_FINITE, OK, STATUS, STEP_TOO_SMALL, STUCK
-from . import modes
+from conveyor.methods import modes
+from conveyor.packing import as_rows, refuse_harmonics
+from conveyor.parameters import LAST, PARAMETERS
 
 TREATMENTS = ("sign", "events", "modes")
+# How a run ended.
+OK, NOT_FINITE = "ok", "not finite"
+GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST = "gave up", "stuck at an event", "step too small", "event lost"
 
 # Where "modes" puts the variable of an event, in units of the plate's motion: a few rounding errors beside zero. At
 # zero or on the wrong side the integrator finds the same event again, or never again, and the part falls through.
@@ -34,7 +35,7 @@ SMALLEST_SCALE = 1e-6
 
 
 class Failed(Exception):
-    """A run does not reach its end; arguments: the code of its status, and the evaluations of its unfinished leg."""
+    """A run does not reach its end; arguments: its status, and the evaluations of its unfinished leg."""
 
 
 class Leg(NamedTuple):
@@ -56,7 +57,7 @@ class IntegratorRun(NamedTuple):
     vz: float  # m/s
     mean_velocity: float  # m/s, over the last part of the run
     evaluations: int  # of the right-hand side, those for Jacobians included
-    status: str  # one of STATUS
+    status: str  # one of those above
     samples: np.ndarray  # x, ẋ, z, ż at the wanted times, shape (k, 4)
     events: np.ndarray  # s, the times of impacts and separations, as far as the treatment finds them
 
@@ -164,11 +165,11 @@ def run(
     parameters = as_rows(parameters)
     trajectory = Trajectory(parameters, integrator, max_evaluations, np.asarray(times, dtype=np.float64))
 
-    def lost(status: int, evaluations: int) -> IntegratorRun:
+    def lost(status: str, evaluations: int) -> IntegratorRun:
         samples = np.full((len(times), 4), math.nan)
-        return IntegratorRun(*(math.nan,) * 5, evaluations, STATUS[status], samples, np.empty(0))
+        return IntegratorRun(*(math.nan,) * 5, evaluations, status, samples, np.empty(0))
 
-    z0, vz0 = parameters[[model.Z0, model.VZ0]]
+    z0, vz0 = parameters[[PARAMETERS.index(name) for name in ("z0", "vz0")]]
     state = np.array([0.0, 0.0, modes.plate_motion(parameters, 0.0)[0] if math.isnan(z0) else z0, vz0])
     middle = (1.0 - LAST) * duration
     try:
@@ -182,4 +183,4 @@ def run(
     x, vx, z, vz = map(float, after)
     mean_velocity = (x - float(before[0])) / (LAST * duration)
     samples, events = np.array(trajectory.samples).reshape(-1, 4), np.array(trajectory.events)
-    return IntegratorRun(x, vx, z, vz, mean_velocity, trajectory.evaluations, STATUS[OK], samples, events)
+    return IntegratorRun(x, vx, z, vz, mean_velocity, trajectory.evaluations, OK, samples, events)
