@@ -172,14 +172,6 @@ def follow_by_events(
     }
 
 
-def follow_by_steps(parameters: np.ndarray, duration: float, step: float, method: str) -> dict[str, np.ndarray]:
-    """The same results by a fixed-step method; events are not counted, because a Run follows them again."""
-    columns = fixed_step.run(parameters, duration, step, method)
-    nothing = np.zeros(len(parameters))
-    columns |= {"work": columns.pop("evaluations"), "repeats": nothing, "event_count": nothing}
-    return columns | {"x_last": columns["x_end"] - columns["mean_velocity"] * LAST * duration}
-
-
 def simulate(
     conveyor: Conveyor | np.ndarray,
     start: Start = AT_REST,
@@ -225,7 +217,7 @@ def simulate(
     if method == "event":
         columns = follow_by_events(rows, np.array([duration]), tolerance, True, reuse)
     else:
-        columns = follow_by_steps(rows, duration, step, method)
+        columns = fixed_step.run(rows, duration, step, method)
     run = {name: column.item() for name, column in columns.items() if name != "mean_velocity"}
     code = run.pop("status")
     if code != OK:

@@ -36,7 +36,7 @@ def test_simulations_after_the_contact(edited):
 
 
 def test_no_labels_after_the_pairs_of_trajectories(edited):
-    project = edited("scripts/conveyor/analysis/chaos/pairs.py", *REMARK)
+    project = edited("scripts/conveyor_pipeline/paper/orbits/published_estimates.py", *REMARK)
     assert project.planned(*TARGETS) == {"estimates": 2, "plot": 1}
 
 

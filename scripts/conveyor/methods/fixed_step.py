@@ -91,15 +91,17 @@ def run(parameters: np.ndarray, duration: float, step: float, method: str = "eul
 
     Returns
     -------
-    the columns of `ensemble.sweep`, shape (n,), with the code of the status, and evaluations, the number of evaluations
-    of the forces
+    the columns of simulation.follow_by_events, shape (n,); work is the number of evaluations of the forces, and events
+    are not counted, because a Run follows them again
     """
     n_steps = step_count(duration, step)
     first = min(round((1.0 - LAST) * n_steps), n_steps - 1)
     results, samples, _ = follow(parameters, step, n_steps, method, [first])
-    failed = results[:, scheme.STATUS] != OK
+    failed, nothing = results[:, scheme.STATUS] != OK, np.zeros(len(parameters))
+    velocity = (results[:, scheme.X] - samples[:, 0, scheme.X]) / ((n_steps - first) * step)
     return {
-        "mean_velocity": (results[:, scheme.X] - samples[:, 0, scheme.X]) / ((n_steps - first) * step),
+        "mean_velocity": velocity,
+        "x_last": results[:, scheme.X] - velocity * LAST * duration,
         "x_end": results[:, scheme.X],
         "vx_end": results[:, scheme.VX],
         "z_end": results[:, scheme.Z],
@@ -110,19 +112,22 @@ def run(parameters: np.ndarray, duration: float, step: float, method: str = "eul
         "impact_speed": np.where(failed, math.nan, results[:, scheme.IMPACT_SPEED]),
         "peak_force": np.where(failed, math.nan, results[:, scheme.PEAK_FORCE]),
         "status": results[:, scheme.STATUS],
-        "evaluations": results[:, scheme.FORCE_EVALUATIONS],
+        "work": results[:, scheme.FORCE_EVALUATIONS],
+        "repeats": nothing,
+        "event_count": nothing,
     }
 
 
 def sample(parameters: np.ndarray, times: np.ndarray, step: float, method: str = "euler") -> dict[str, np.ndarray]:
-    """States and forces of one trajectory at the steps nearest to `times` (s, not negative, any shape and order).
+    """States and forces of trajectories at the steps nearest to `times` (s, not negative, any shape s and order).
 
-    Returns x, z (m), vx, vz (m/s), contact_force, friction_force (N), float64, shape of `times`; NaN after a state that
-    is not finite. The other parameters are as in `run`.
+    Returns x, z (m), vx, vz (m/s), contact_force, friction_force (N), float64, shape (*m, *s) for parameters of the
+    shape (*m, 16); NaN after a state that is not finite. The other parameters are as in `run`.
     """
     indices, place = np.unique(np.rint(times / step).astype(np.int64), return_inverse=True)
-    _, (samples,), _ = follow(parameters[np.newaxis], step, int(indices.max(initial=1)), method, indices)
-    return {name: samples[place, k].reshape(times.shape) for k, name in enumerate(SAMPLES)}
+    rows, shape = parameters.reshape(-1, parameters.shape[-1]), (*parameters.shape[:-1], *times.shape)
+    _, samples, _ = follow(rows, step, int(indices.max(initial=1)), method, indices)
+    return {name: samples[:, place.ravel(), k].reshape(shape) for k, name in enumerate(SAMPLES)}
 
 
 def events(parameters: np.ndarray, duration: float, step: float, method: str = "euler") -> np.ndarray:

@@ -90,7 +90,7 @@ def test_compiled_loop_agrees_with_the_plain_loop(method, tension, exponent, tra
     assert run.contact_fraction == pytest.approx(np.count_nonzero(slow[:-1, 4]) / n_steps, rel=1e-14)
     assert run.max_gap == pytest.approx(gap.max(), rel=1e-10)
     assert run.mean_velocity == pytest.approx((slow[-1, 0] - slow[1125, 0]) / (375 * step), rel=1e-9)
-    assert run.evaluations == n_steps * EVALUATIONS[fixed_step.METHODS.index(method)]
+    assert run.work == n_steps * EVALUATIONS[fixed_step.METHODS.index(method)]
 
 
 def test_a_run_may_have_any_number_of_events(monkeypatch):

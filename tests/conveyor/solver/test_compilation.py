@@ -47,7 +47,6 @@ print(*names[pure // 2 :])
 SIGNATURES = """
 import numpy as np
 from conveyor import Conveyor, Start, parameter_table, sample_runs, simulate, sweep, transits
-from conveyor.analysis.chaos.pairs import finite_difference_exponent
 from conveyor.solver import trajectory
 
 run = simulate(Conveyor(), Start(z=3e-4), duration=1)
@@ -59,7 +58,6 @@ sweep(table, duration=0.1, needs="vertical")
 sweep(table.T, duration=np.full((2, 2), 0.1).T)
 sample_runs(table[0], np.array([[0.0, 0.1], [0.1, 0.1]], order="F"), columns=["z"], skip=True)
 transits(table[1], np.array([0.01]), np.array([1]), begin=0)
-finite_difference_exponent(table[0], table[1], 1e-8, duration=0.1)
 print(len(trajectory.follow.__wrapped__.signatures))
 """
 LOCK = "conveyor/compiling-others.lock"

@@ -4,13 +4,11 @@ Four boxes make one box of twice the size. Along a Z-curve (Morton) they follow 
 sorted along the curve at the finest scale are sorted at all coarser scales.
 """
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...linear_algebra import fit_line
 from ...solver.jit import compiled, compiled_inline
 from .scaling_region import SAMPLES_PER_BOX, SCALES, SCALES_PER_OCTAVE, Dimension, normalise, scaling_region
 
@@ -144,23 +142,3 @@ def box_dimension(points: ArrayLike) -> Dimension:
     corrected = counts + np.minimum(missing, last)
     value, error, low, high = scaling_region(scales, np.log(corrected), np.log(corrected / counts)[None])
     return Dimension(-value, error, low, high, scales, counts)
-
-
-def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.5 ** np.arange(1, 9))) -> Dimension:
-    """Box counting without precautions: one grid, a straight line through the counts of all `sizes`.
-
-    The error is twice the standard error of the slope, as if the counts scattered independently.
-
-    points, sizes : shape (n, 2), and sizes of the boxes in units of the set's extent
-
-    Examples
-    --------
-    >>> points = np.random.default_rng(1).random((20_000, 2))  # a filled square
-    >>> round(float(box_dimension_of_paper(points).value), 1)  # too small: small boxes stay empty
-    1.7
-    """
-    scales = np.sort(np.asarray(sizes, dtype=np.float64))[::-1]
-    samples = Samples(normalise(points), np.zeros(len(points), np.int64), scales, len(scales))
-    counts = box_counts(samples, np.zeros((1, 2)), 0.0)[0]
-    slope, _, error = fit_line(np.log(scales), np.log(counts))
-    return Dimension(-slope, 2.0 * error, scales[-1], scales[0], scales, counts)

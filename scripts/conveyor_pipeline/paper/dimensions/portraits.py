@@ -3,10 +3,10 @@
 import numpy as np
 
 from conveyor import Dimension, box_dimension, correlation_dimension, sample_runs
-from conveyor.analysis.fractals.box_counting import box_dimension_of_paper
 from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.paper.dimensions.limits import LARGEST_ERROR
+from conveyor_pipeline.paper.orbits.published_estimates import box_dimension_of_paper
 
 TABLES = {
     "dimensions": (

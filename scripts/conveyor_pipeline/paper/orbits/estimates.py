@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from conveyor.analysis.chaos.pairs import finite_difference_exponent
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.paper.orbits.published_estimates import finite_difference_exponent
 
 TABLES = {
     "estimates": (fields.number("lambda", "1/s", "Lyapunov exponent by finite differences (Eq. 23)"),),

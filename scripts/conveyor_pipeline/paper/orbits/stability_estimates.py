@@ -17,10 +17,9 @@ from conveyor import (
     periodic_orbit,
     simulate,
 )
-from conveyor.analysis.chaos.pairs import finite_difference_exponent
-from conveyor.analysis.fractals.box_counting import box_dimension_of_paper
 from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.paper.orbits.published_estimates import box_dimension_of_paper, finite_difference_exponent
 from conveyor_pipeline.paper.orbits.reference_sets import REFERENCE_DIMENSIONS
 
 TABLES = {

@@ -68,22 +68,6 @@ def test_a_series_whose_parts_differ_has_a_larger_error():
     assert ordered.error > 3.0 * mixed.error
 
 
-def test_the_paper_s_way_misses_the_dimension_of_a_square_by_more_than_its_error():
-    """Its smallest boxes contain too few points, which the method does not notice."""
-    found = box_counting.box_dimension_of_paper(square(np.random.default_rng(1), 10_000))
-    assert found.value + found.error < 1.9
-
-
-def test_both_methods_use_the_same_machine_code():
-    """Numba would compile a function for each layout of its arrays."""
-    functions = box_counting.boxes_of, box_counting.count_sorted
-    points = square(np.random.default_rng(1), 1000)
-    box_counting.box_dimension(points)
-    compiled = [list(function.signatures) for function in functions]
-    box_counting.box_dimension_of_paper(points)
-    assert [function.signatures for function in functions] == compiled
-
-
 def test_more_points_narrow_the_error():
     points = np.random.default_rng(0).permutation(sierpinski(np.random.default_rng(6), 100_000))
     found = [box_counting.box_dimension(points[:number]) for number in (3_000, 10_000, 100_000)]
