@@ -11,7 +11,6 @@ MOST_THREADS = 1024
 MOST_CYCLES = 10**6  # excitation cycles of one trajectory
 MOST_BLOCKS = 10**4
 LONGEST = 1e6  # s, of a run
-LONGEST_PERIOD = 10**6  # excitation cycles
 LARGEST_COORDINATE = 1e100
 
 # Intervals of packed parameters. A trajectory may leave the range of initial conditions, and a run that failed leaves
@@ -87,6 +86,23 @@ def check_array(
     return numbers
 
 
+def check_states(name: str, states: object, shape: tuple[int, ...], *, may_be_nan: bool = False) -> np.ndarray:
+    """`states`, δ (m) and v (m/s) along the last axis, as a new float64 array; ValueError for another shape."""
+    limits = {"low": -LARGEST_COORDINATE, "high": LARGEST_COORDINATE, "least": 0, "may_be_nan": may_be_nan}
+    array = check_array(name, states, **limits)
+    if array.shape != shape:
+        raise ValueError(f"{name} must have the shape {shape}, δ (m) and v (m/s), got {array.shape}")
+    return array.copy()
+
+
+def check_series(name: str, values: object, *, least: int = 0, may_be_nan: bool = False) -> np.ndarray:
+    """`values` as a float64 array of the shape (n,); ValueError for another shape, or fewer than `least`."""
+    array = check_array(name, values, -LARGEST_COORDINATE, LARGEST_COORDINATE, least=least, may_be_nan=may_be_nan)
+    if array.ndim != 1:
+        raise ValueError(f"{name} must have the shape (n,), got {array.shape}")
+    return array
+
+
 def check_parameter(name: str, value: object) -> float:
     """`value`, of a parameter, as a float; ValueError outside its range."""
     return check_number(name, value, *RANGES[name], UNITS[name])
@@ -116,23 +132,3 @@ def check_limits(name: str, limits: object, parameter: str, value: float) -> tup
 def check_threads(threads: object) -> int:
     """`threads` as an int; ValueError unless it is a whole number from 1 to MOST_THREADS."""
     return check_count("threads", threads, 1, MOST_THREADS)
-
-
-def check_parameters(values: dict[str, object]) -> dict[str, np.ndarray]:
-    """`values` of parameters as float64 arrays, broadcast to one shape.
-
-    TypeError for a name that is not in parameters.RANGES. ValueError names the array that cannot be used, or the arrays
-    whose shapes do not fit.
-    """
-    for name in values:
-        if name not in RANGES:
-            raise TypeError(f"{name} is not one of {', '.join(RANGES)}")
-    arrays = [check_array(name, value, *RANGES[name], UNITS[name]) for name, value in values.items()]
-    try:
-        shape = np.broadcast_shapes(*(array.shape for array in arrays))
-    except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(values, arrays, strict=True))
-        raise ValueError(f"the shapes of the arrays do not broadcast: {shapes}") from None
-    if np.prod(shape, dtype=np.float64) > MOST_VALUES:
-        raise ValueError(f"{', '.join(values)} have the shape {shape}: more than {MOST_VALUES:g} points")
-    return {name: np.broadcast_to(array, shape) for name, array in zip(values, arrays, strict=True)}

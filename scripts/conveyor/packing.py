@@ -53,8 +53,18 @@ def parameter_table(conveyor: Conveyor, start: Start = AT_REST, **values: ArrayL
     """
     arguments.check_type("conveyor", conveyor, Conveyor)
     arguments.check_type("start", start, Start)
-    arrays = arguments.check_parameters(values)
-    shape = next(iter(arrays.values())).shape if arrays else ()
+    arrays = {}
+    for name, value in values.items():
+        if name not in RANGES:
+            raise TypeError(f"{name} is not one of {', '.join(RANGES)}")
+        arrays[name] = arguments.check_array(name, value, *RANGES[name], UNITS[name])
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        raise ValueError(f"the shapes of the arrays do not broadcast: {shapes}") from None
+    if np.prod(shape, dtype=np.float64) > arguments.MOST_VALUES:
+        raise ValueError(f"{', '.join(values)} have the shape {shape}: more than {arguments.MOST_VALUES:g} points")
     table = np.full(shape, as_table(pack(conveyor, start)))
     if conveyor.static_friction is not None:
         arrays = {"static_friction": conveyor.static_friction} | arrays
@@ -76,7 +86,10 @@ def replace_parameters(parameters: Conveyor | np.ndarray, **values: ArrayLike) -
     table = copy_table(parameters)
     for name, column in values.items():
         if name == "tension":
-            column = np.vectorize(tension_code, otypes=[np.float64])(column)
+            code = np.vectorize(
+                lambda word: TENSION_MODES.index(arguments.check_choice("tension", word, TENSION_MODES)), [np.float64]
+            )
+            column = code(column)
         elif name not in RANGES:
             raise TypeError(f"{name} is not one of {', '.join(PARAMETERS)}")
         options = {"may_be_nan": name in arguments.STATES, "unit": UNITS[name]}
@@ -125,11 +138,6 @@ def check_column(
         return np.broadcast_to(column, shape)
     except ValueError:
         raise ValueError(f"{name} has the shape {column.shape}, but parameters have the shape {shape}") from None
-
-
-def tension_code(word: str) -> int:
-    """The position of a word in TENSION_MODES; ValueError for an unknown one."""
-    return TENSION_MODES.index(arguments.check_choice("tension", word, TENSION_MODES))
 
 
 def as_rows(parameters: np.ndarray) -> np.ndarray:

@@ -552,7 +552,7 @@ def test_shapes_of_parameters_and_states_are_checked():
         conveyor.sweep(np.zeros((2, 15)))
     with pytest.raises(ValueError, match=r"states must have the shape \(2, 2\)"):
         conveyor.lyapunov_spectrum(TABLE, np.zeros((1, 2)))
-    with pytest.raises(ValueError, match=r"start must be a Start, or δ \(m\) and v \(m/s\)"):
+    with pytest.raises(ValueError, match=r"start must have the shape \(2,\), δ \(m\) and v \(m/s\)"):
         conveyor.periodic_orbit(TABLE[0], np.zeros(3))
     with pytest.raises(ValueError, match=r"conveyor must be one row of a table, got the shape \(2,\)"):
         conveyor.periodic_orbit(TABLE)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import LARGEST_COORDINATE, LONGEST, check_array, check_number
+from ..arguments import LONGEST, check_number, check_series
 
 SHORTEST = 1e-12  # s, of a signal
 
@@ -36,7 +36,7 @@ def harmonic_spectrum(samples: ArrayLike, duration: float) -> AmplitudeSpectrum:
     >>> spectrum.amplitude[:4].round(9).tolist()  # at 0, 50, 100 and 150 Hz
     [3.0, 0.0, 2.0, 0.0]
     """
-    samples = check(samples)
+    samples = check_series("samples", samples, least=2)
     return one_sided(samples, duration, len(samples))
 
 
@@ -54,21 +54,13 @@ def windowed_spectrum(samples: ArrayLike, duration: float) -> AmplitudeSpectrum:
     >>> round(float(spectrum.amplitude[0]), 6), round(float(spectrum.amplitude[5]), 6)  # the mean, and 5 Hz
     (3.0, 2.0)
     """
-    samples = check(samples)
+    samples = check_series("samples", samples, least=2)
     # As scipy.signal.windows.hann, whose import takes a second.
     window = 0.5 + 0.5 * np.cos(np.linspace(-np.pi, np.pi, len(samples) + 1))[:-1]
     mean = np.sum(window * samples) / window.sum()
     spectrum = one_sided((samples - mean) * window, duration, window.sum())
     spectrum.amplitude[0] = abs(mean)
     return spectrum
-
-
-def check(samples: ArrayLike) -> np.ndarray:
-    """The samples as float64; ValueError unless they are finite, one-dimensional and at least two."""
-    samples = check_array("samples", samples, -LARGEST_COORDINATE, LARGEST_COORDINATE, least=2)
-    if samples.ndim != 1:
-        raise ValueError(f"samples must have the shape (n,), got {samples.shape}")
-    return samples
 
 
 def one_sided(samples: np.ndarray, duration: float, gain: float) -> AmplitudeSpectrum:

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import LARGEST_COORDINATE, MOST_CYCLES, check_array, check_count, check_tolerance
+from ..arguments import MOST_CYCLES, check_count, check_states, check_tolerance
 from ..packing import as_rows, as_table, check_row, check_rows
 from ..parameters import DEFAULT_TOLERANCE
 from ..progress import progress_bar
@@ -76,9 +76,7 @@ def start_at(
     True
     """
     rows, shape = check_rows(parameters)
-    states = check_array("states", states, -LARGEST_COORDINATE, LARGEST_COORDINATE, least=0, may_be_nan=True)
-    if shape == () and states.ndim == 2:
+    if shape == () and np.ndim(states) == 2:
         rows = np.tile(rows, (len(states), 1))
-    if states.shape != (len(rows), 2):
-        raise ValueError(f"states must be δ and v of the shape ({len(rows)}, 2), as parameters, got {states.shape}")
+    states = check_states("states", states, (len(rows), 2), may_be_nan=True)
     return as_table(stroboscopic_map.pack_states(rows, states, check_tolerance(tolerance)))

@@ -259,17 +259,6 @@ def row_of(series, row):
     return series[row : row + SIZE]
 
 
-@compiled
-def expand_power(c, series, at, row, exponent):
-    """Fill a row with the series of w^exponent along a step; it is 0 where the spring is switched off."""
-    for n in range(SIZE):
-        series[row + n] = 0.0
-    if series[at + W] > c.edge_w:
-        series[row] = series[at + W] ** exponent
-        for n in range(1, ORDER):
-            series[row + n] = power_term(series, at + W, row, exponent, n)
-
-
 @compiled_inline
 def length_of_spring(c, series, at, w0, v0):
     """Length of a step in the variable s up to which the spring's series is accurate, for w0 > edge_w and other p.
@@ -293,8 +282,14 @@ def expand_stiffness(c, series, at, row):
         power = row_of(series, at + SQUARE)
     elif c.exponent == 1.0:
         power = row_of(series, at + W)
-    else:
-        expand_power(c, series, at, row, 2.0 * c.exponent - 1.0)
+    else:  # w^(2p-1), but 0 where the spring is switched off
+        exponent = 2.0 * c.exponent - 1.0
+        for n in range(SIZE):
+            series[row + n] = 0.0
+        if series[at + W] > c.edge_w:
+            series[row] = series[at + W] ** exponent
+            for n in range(1, ORDER):
+                series[row + n] = power_term(series, at + W, row, exponent, n)
     return factor, power
 
 

@@ -41,18 +41,6 @@ Segment = namedtuple("Segment", "sigma mu x vx s t sine cosine z vz w v")
 
 
 @compiled_inline
-def slip_direction(c, sine, cosine, vx, force, mu):
-    """Sign of the slip of a part with the velocity ẋ = vx at a phase, or 0 for stick.
-
-    force : F_c/m, m/s²; mu : coefficient of static friction
-    """
-    slip = plate.speed(c, sine, cosine) - vx
-    if slip == 0.0:
-        return friction.direction_at_rest(c, friction.pull(c, sine, cosine), force, mu)
-    return math.copysign(1.0, slip)
-
-
-@compiled_inline
 def slide(c, x, vx, tau):
     """x (m) and ẋ (m/s) after a time tau (s) in which only gravity acts along the track."""
     fall = c.downhill * tau
@@ -98,8 +86,11 @@ def segment_end(c, step, segment, released, fastest, leave):
 @compiled_into_callers
 def touch_down(c, motion, horizontal):
     """The Horizontal motion of a part that has just come into contact."""
-    force = contact_law.force(c, motion.w, motion.v)
-    sigma = slip_direction(c, motion.sine, motion.cosine, horizontal.vx, force, c.static_friction)
+    slip = plate.speed(c, motion.sine, motion.cosine) - horizontal.vx
+    sigma = math.copysign(1.0, slip)
+    if slip == 0.0:
+        pull, force = friction.pull(c, motion.sine, motion.cosine), contact_law.force(c, motion.w, motion.v)
+        sigma = friction.direction_at_rest(c, pull, force, c.static_friction)
     return Horizontal(horizontal.x, horizontal.vx, sigma)
 
 
@@ -130,21 +121,14 @@ def sample_contact(c, step, segment, tau, sample):
 
 
 @compiled_into_callers
-def first_segment(c, motion, horizontal):
-    """The Segment that begins with a contact step."""
-    mu = 0.0 if motion.pulled else c.friction
-    z, vz = plate.surface(c, motion.sine, motion.cosine)
-    z, vz = z - motion.w * motion.w, vz - motion.v
-    x, vx, sigma = horizontal
-    return Segment(sigma, mu, x, vx, 0.0, 0.0, motion.sine, motion.cosine, z, vz, motion.w, motion.v)
-
-
-@compiled_into_callers
 def follow_contact(c, step, horizontal, feeding, record):
     """`follow_horizontal` for a contact step."""
     series, at, motion, piece, begin = step
-    segment = first_segment(c, motion, horizontal)
     x, vx, sigma = horizontal
+    mu = 0.0 if motion.pulled else c.friction
+    z, vz = plate.surface(c, motion.sine, motion.cosine)
+    z, vz = z - motion.w * motion.w, vz - motion.v
+    segment = Segment(sigma, mu, x, vx, 0.0, 0.0, motion.sine, motion.cosine, z, vz, motion.w, motion.v)
     fastest = max(-motion.v, -piece.v, 0.0)
     released = not feeding
     segments, leave = 0, LEAVE

@@ -7,7 +7,7 @@ call it: trajectory adds slip, stick, samples and statistics, and stroboscopic_m
 import math
 from collections import namedtuple
 
-from . import repeated_steps, vertical
+from . import plate, repeated_steps, vertical
 from .jit import compiled_inline, compiled_into_callers
 from .status import IMPACT_LOST, NOT_FINITE, OK, TOO_STIFF
 from .vertical import CONTACT, LOST, TIME_LIMIT
@@ -54,7 +54,8 @@ def begin(c, z0, vz0):
 def end_piece(c, series, clock, motion, piece):
     """The Motion at the end of a Piece that began with `motion`, the Clock there, and a code of status.STATUS."""
     after = vertical.arrive(c, motion, piece, clock.origin)
-    status = OK if vertical.is_finite(after) else NOT_FINITE
+    finite = math.isfinite(after.w) and math.isfinite(after.v) and math.isfinite(after.q)
+    status = OK if finite else NOT_FINITE
     if piece.end == LOST:
         status = IMPACT_LOST
     if clock.pieces >= MAX_PIECES:
@@ -101,5 +102,7 @@ def next_cycle(c, clock, motion, piece):
         return motion, clock
     cycles = 1 if piece.end == TIME_LIMIT else int(motion.t / c.period)
     t = 0.0 if piece.end == TIME_LIMIT else max(motion.t - cycles * c.period, 0.0)
-    clock = clock_at(c, clock.origin, clock.first, clock.cycle + cycles)
-    return vertical.in_cycle(c, motion, t, clock.origin), clock
+    theta = clock.origin + c.omega * t
+    _, _, _, _, touching, w, v, pulled, z, vz, q, rate = motion
+    motion = vertical.Motion(t, theta, *plate.sine_and_cosine(theta), touching, w, v, pulled, z, vz, q, rate)
+    return motion, clock_at(c, clock.origin, clock.first, clock.cycle + cycles)

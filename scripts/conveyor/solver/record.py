@@ -89,39 +89,24 @@ def record_end(record, step, after):
 @compiled_into_callers
 def count_piece(c, step, record):
     """Add a piece to the statistics of a run."""
-    if step.piece.kind == FLIGHT:
-        count_flight(c, step, record)
-    elif step.piece.kind == CONTACT:
-        count_contact(c, step, record)
-
-
-@compiled_into_callers
-def count_flight(c, step, record):
-    """Add a flight to the statistics of a run."""
-    piece, results = step.piece, record.results
-    since, end = record.since, record.times[-1]
-    highest = highest_gap(flight_from(c, step.motion), min(piece.duration, end - step.begin))
-    results[MAX_GAP] = max(results[MAX_GAP], highest)
-    if step.begin + piece.duration < end:
-        results[IMPACTS] += 1
-        if step.begin + piece.duration >= since:
-            results[IMPACT_SPEED] = max(results[IMPACT_SPEED], piece.v)
-
-
-@compiled_into_callers
-def count_contact(c, step, record):
-    """Add a contact step to the statistics of a run."""
     motion, piece, results = step.motion, step.piece, record.results
     since, end = record.since, record.times[-1]
-    results[REPEATS if piece.repeated else STEPS] += 1
-    if motion.pulled and c.tension == TENSION_CLIP:
-        return
-    # A repeated step has the duration of the kept one, but counts up to the end of the cycle.
-    lasts = c.period - motion.t if piece.end == TIME_LIMIT else piece.duration
-    results[CONTACT_TIME] += min(lasts, end - step.begin)
-    if step.begin + piece.duration > since:
-        force = peak_of_step(c, step, since - step.begin, end - step.begin)
-        results[PEAK_FORCE] = max(results[PEAK_FORCE], c.mass * force)
+    if piece.kind == FLIGHT:
+        highest = highest_gap(flight_from(c, motion), min(piece.duration, end - step.begin))
+        results[MAX_GAP] = max(results[MAX_GAP], highest)
+        if step.begin + piece.duration < end:
+            results[IMPACTS] += 1
+            if step.begin + piece.duration >= since:
+                results[IMPACT_SPEED] = max(results[IMPACT_SPEED], piece.v)
+    elif piece.kind == CONTACT:
+        results[REPEATS if piece.repeated else STEPS] += 1
+        if not (motion.pulled and c.tension == TENSION_CLIP):
+            # A repeated step has the duration of the kept one, but counts up to the end of the cycle.
+            lasts = c.period - motion.t if piece.end == TIME_LIMIT else piece.duration
+            results[CONTACT_TIME] += min(lasts, end - step.begin)
+            if step.begin + piece.duration > since:
+                force = peak_of_step(c, step, since - step.begin, end - step.begin)
+                results[PEAK_FORCE] = max(results[PEAK_FORCE], c.mass * force)
 
 
 @compiled_into_callers

@@ -186,17 +186,3 @@ def arrive(c, motion, piece, origin):
     pulled = motion.pulled != (piece.end == FORCE_SIGN)
     z, vz = plate.height(c, sine, cosine), plate.rise(c, sine, cosine) - v
     return Motion(t, theta, sine, cosine, touching, piece.w, v, pulled, z, vz, 0.0, -v)
-
-
-@compiled_inline
-def is_finite(motion):
-    """Whether the state of a Motion is finite."""
-    return math.isfinite(motion.w) and math.isfinite(motion.v) and math.isfinite(motion.q)
-
-
-@compiled_into_callers
-def in_cycle(c, motion, t, origin):
-    """The same Motion at the time t (s) of another cycle, which begins at the phase `origin` (rad)."""
-    theta = origin + c.omega * t
-    _, _, _, _, touching, w, v, pulled, z, vz, q, rate = motion
-    return Motion(t, theta, *plate.sine_and_cosine(theta), touching, w, v, pulled, z, vz, q, rate)

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from conveyor import Conveyor, Start
-from conveyor.analysis.contact_groups import contact_of_groups, groups_of_contact
-from conveyor.analysis.dimensionless_groups import groups_of
+from conveyor.analysis.dimensionless_groups import contact_of_groups, groups_of, groups_of_contact
 from conveyor.solver.model import pack
 
 

@@ -10,7 +10,7 @@ import pytest
 from numpy.polynomial.polynomial import polyval
 
 from conveyor import Conveyor, Start
-from conveyor.analysis import contact_groups, dimensionless_groups, stroboscopic_map
+from conveyor.analysis import dimensionless_groups, stroboscopic_map
 from conveyor.solver import contact, contact_law, model, plate
 from conveyor.solver.model import TENSION_MODES, pack
 from conveyor.solver.status import OK
@@ -26,7 +26,7 @@ def random_conveyor(seed, exponent, tension="allow"):
     mass, frequency, gravity = random.uniform(0.5, 2.0, 3) * (0.7e-3, 50.0, 9.81)
     changed = {"mass": mass, "frequency": frequency, "gravity": gravity, "exponent": exponent, "tension": tension}
     row = pack(Conveyor(acceleration=random.uniform(30.0, 120.0), **changed), Start())
-    unit_of_stiffness, unit_of_damping, _ = contact_groups.units(row)
+    unit_of_stiffness, unit_of_damping, _ = dimensionless_groups.units_of_contact(row)
     row[model.STIFFNESS] = unit_of_stiffness * 10.0 ** random.uniform(1.0, 4.0)
     row[model.DAMPING] = unit_of_damping * 10.0 ** random.uniform(-1.0, 1.0)
     return row, dimensionless_groups.length_and_speed_units(row)
@@ -102,7 +102,7 @@ def test_contacts_of_equal_loss_take_equal_shares_of_the_speed(exponent):
     shares = []
     for group in 10.0 ** np.array([7.0, 9.0, 11.0]):
         row = table.copy()
-        row[[model.STIFFNESS, model.DAMPING]] = contact_groups.contact_of_groups(group, loss, table)
+        row[[model.STIFFNESS, model.DAMPING]] = dimensionless_groups.contact_of_groups(group, loss, table)
         shares.append(1.0 + leave(contact.constants(row, 1e-12), 0.0, speed) / speed)
     assert shares == pytest.approx(np.full(3, shares[0]), rel=0.02)
     assert 0.1 * loss < shares[0] < 10.0 * loss

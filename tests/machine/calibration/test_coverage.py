@@ -7,7 +7,7 @@ import pytest
 from project import si_config
 from synthetic import csv_text, measure
 
-from conveyor.analysis.contact_groups import contact_of_groups
+from conveyor.analysis.dimensionless_groups import contact_of_groups
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.config.tables import settings_of
 from conveyor_pipeline.machine.calibration.calibrate import make

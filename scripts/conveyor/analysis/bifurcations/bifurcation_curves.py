@@ -95,7 +95,6 @@ class BifurcationCurve(NamedTuple):
     points: list[BifurcationPoint]
     log_ratios: np.ndarray  # λ of each point, shape (n,)
     normal_forms: np.ndarray  # coefficient at each point, whose zero is a cusp or a generalised doubling, shape (n,)
-    impacts: np.ndarray  # per period, at each point, shape (n,)
     meetings: list[CodimensionTwoPoint]
     # At the first and last point: limit, step (none is small enough), length, closed, lost, period halving.
     ends: tuple[str, str]
@@ -235,11 +234,10 @@ def follow_bifurcation_curve(
         form, right = normal_form(one, rights[-1])
         forms.append(form)
         rights.append(right)
-    impacts = np.array([linearise(one.groups, one.unknown[:2], one.period).impacts for one in points])
+    impacts = [linearise(one.groups, one.unknown[:2], one.period).impacts for one in points]
     meetings = list(_meetings(equations, unknowns, forms, rights[1:], impacts, (first, last)))
-    return BifurcationCurve(
-        points, np.array([unknown[3] for unknown in unknowns]), np.array(forms), impacts, meetings, (first, last)
-    )
+    log_ratios = np.array([unknown[3] for unknown in unknowns])
+    return BifurcationCurve(points, log_ratios, np.array(forms), meetings, (first, last))
 
 
 def follow_grazing_curve(
@@ -288,8 +286,7 @@ def follow_grazing_curve(
             ends.append(reason)
     path_points.sort(key=lambda one: one[1])
     points, log_ratios = [one for one, _ in path_points], np.array([log_ratio for _, log_ratio in path_points])
-    impacts = np.zeros(len(points), dtype=np.int64)
-    return BifurcationCurve(points, log_ratios, np.full(len(points), np.nan), impacts, [], tuple(ends))
+    return BifurcationCurve(points, log_ratios, np.full(len(points), np.nan), [], tuple(ends))
 
 
 def continue_bifurcation(

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arguments import LARGEST_COORDINATE, check_array
+from ...arguments import check_series
 from ...packing import replace_parameters
 from ...progress import progress_bar
 from .continuation import Bifurcation, check_doubling, multiplier_test
@@ -78,14 +78,6 @@ def next_doubling(first: Bifurcation, second: Bifurcation) -> Bifurcation | None
     return Bifurcation("period_doubling", here, min(value.real for value in here.multipliers), "acceleration")
 
 
-def check_series(amplitudes: object) -> np.ndarray:
-    """`amplitudes`, shape (n,), as float64; NaN is allowed."""
-    numbers = check_array("amplitudes", amplitudes, -LARGEST_COORDINATE, LARGEST_COORDINATE, least=0, may_be_nan=True)
-    if numbers.ndim != 1:
-        raise ValueError(f"amplitudes must have the shape (n,), got {numbers.shape}")
-    return numbers
-
-
 def doubling_ratios(amplitudes: ArrayLike) -> np.ndarray:
     """Feigenbaum's ratios (d_n - d_(n-1))/(d_(n+1) - d_n) of successive doublings, shape (n - 2,).
 
@@ -94,7 +86,7 @@ def doubling_ratios(amplitudes: ArrayLike) -> np.ndarray:
     >>> doubling_ratios(np.array([54.21824, 61.27324, 62.47738, 62.7079])).round(2).tolist()
     [5.86, 5.22]
     """
-    gaps = np.diff(check_series(amplitudes))
+    gaps = np.diff(check_series("amplitudes", amplitudes, may_be_nan=True))
     if not (np.abs(gaps[1:]) > 0.0).all():
         raise ValueError("amplitudes of successive doublings must be numbers that differ")
     return gaps[:-1] / gaps[1:]
@@ -109,7 +101,7 @@ def accumulation_point(amplitudes: ArrayLike) -> tuple[float, float]:
     >>> round(limit, 3), round(error, 3)
     (62.762, 0.037)
     """
-    amplitudes = check_series(amplitudes)
+    amplitudes = check_series("amplitudes", amplitudes, may_be_nan=True)
     if len(amplitudes) < 4 or not (np.diff(np.abs(np.diff(amplitudes[-4:]))) < 0.0).all():
         return np.nan, np.nan
     before, gap = amplitudes[:-2], np.diff(amplitudes)

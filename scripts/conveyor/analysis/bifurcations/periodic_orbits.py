@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ... import linear_algebra
-from ...arguments import LARGEST_COORDINATE, MOST_CYCLES, check_array, check_count, check_type
+from ...arguments import MOST_CYCLES, check_count, check_states, check_type
 from ...packing import AT_REST, as_rows, as_table, check_row
 from ...parameters import PARAMETERS
 from ...solver import contact, contact_law
@@ -225,8 +225,7 @@ def check_orbit(name: str, orbit: object) -> Orbit:
     check_count(f"{name}.impacts", orbit.impacts, 0, LONGEST_PERIOD * MOST_CYCLES)
     if np.shape(orbit.multipliers) != (2,) or np.asarray(orbit.multipliers).dtype.kind not in "iufc":
         raise ValueError(f"{name}.multipliers must be two numbers, got {orbit.multipliers!r}")
-    if check_array(f"{name}.state", orbit.state, -LARGEST_COORDINATE, LARGEST_COORDINATE).shape != (2,):
-        raise ValueError(f"{name}.state must be δ (m) and v (m/s), got {orbit.state!r}")
+    check_states(f"{name}.state", orbit.state, (2,))
     returns = ReturnMap(orbit.parameters, orbit.period)
     given = returns.unknown(orbit)
     solved = returns.newton(given)
@@ -284,9 +283,7 @@ def periodic_orbit(
         (state,) = stroboscopic_map.initial_states(row[None], ORBIT_TOLERANCE)
     else:
         row = check_row("conveyor", conveyor)
-        state = check_array("start", start, -LARGEST_COORDINATE, LARGEST_COORDINATE).copy()
-        if state.shape != (2,):
-            raise ValueError(f"start must be a Start, or δ (m) and v (m/s), got the shape {state.shape}")
+        state = check_states("start", start, (2,))
     if several:
         return settled_orbit(row, state, periods, transient)
     stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, state, transient)

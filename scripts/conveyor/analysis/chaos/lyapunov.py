@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ... import arguments
-from ...arguments import LARGEST_COORDINATE, MOST_BLOCKS, MOST_CYCLES, MOST_VALUES
+from ...arguments import MOST_BLOCKS, MOST_CYCLES, MOST_VALUES
 from ...columns import Columns
 from ...packing import check_rows
 from ...parallel import for_each_chunk
@@ -121,10 +121,7 @@ def lyapunov_spectrum(
     if states is None:
         states = stroboscopic_map.initial_states(parameters, tolerance)
     else:
-        limits = {"low": -LARGEST_COORDINATE, "high": LARGEST_COORDINATE, "least": 0, "may_be_nan": True}
-        states = arguments.check_array("states", states, **limits).copy()
-        if states.shape != (len(parameters), 2):
-            raise ValueError(f"states must have the shape ({len(parameters)}, 2), as parameters, got {states.shape}")
+        states = arguments.check_states("states", states, (len(parameters), 2), may_be_nan=True)
     stretches = np.full((len(parameters), blocks * cycles, 2), np.nan)
     contact_times = np.full((len(parameters), blocks * cycles), np.nan)
     codes = np.zeros(len(parameters), dtype=np.int64)

@@ -10,7 +10,7 @@ All functions take `settings` with the `ranges` of the searched parameters, in t
 import numpy as np
 
 from conveyor import replace_parameters
-from conveyor.analysis.contact_groups import contact_of_groups, groups_of_contact
+from conveyor.analysis.dimensionless_groups import contact_of_groups, groups_of_contact
 from conveyor.elementary import exp, log
 from conveyor_pipeline.common import grid
 

@@ -82,7 +82,7 @@ def angle_curve(point: BifurcationPoint, angle: float, reach: float) -> Bifurcat
     parts = np.linspace(-reach, highest, 2 * int(np.ceil(reach / STEP)) + 1)
     count = len(parts)
     ends = "limit", "limit"
-    return BifurcationCurve([point] * count, parts, np.full(count, np.nan), np.zeros(count, np.int64), [], ends)
+    return BifurcationCurve([point] * count, parts, np.full(count, np.nan), [], ends)
 
 
 def follow_curve(parameters: np.ndarray, point: BifurcationPoint, parameter: str, factor: float) -> BifurcationCurve:
