@@ -6,32 +6,25 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from conveyor.arguments import (
-    LONGEST,
-    check_array,
-    check_number,
-    check_threads,
-    check_time,
-    check_tolerance,
-    check_type,
-)
-from conveyor.blocks import block_motion
-from conveyor.blocks.corners import CORNERS, ROWS, STATE, X
-from conveyor.blocks.steps import STAGES
-from conveyor.columns import Columns
-from conveyor.packing import AT_REST, as_rows, check_rows, conveyor_of, parameter_table
-from conveyor.parallel import call_interruptibly, for_each_chunk
-from conveyor.parameters import LAST
-from conveyor.simulation import mean_velocity
-from conveyor.solver import plate
-from conveyor.solver.model import FREQUENCY, MASS, Conveyor, Start
-from conveyor.solver.status import OK, STATUS
+from ..arguments import LONGEST, check_array, check_number, check_threads, check_time, check_tolerance, check_type
+from ..columns import Columns
+from ..packing import AT_REST, check_column, check_rows, conveyor_of
+from ..parallel import call_interruptibly, for_each_chunk
+from ..parameters import LAST
+from ..simulation import mean_velocity
+from ..solver import plate
+from ..solver.model import FREQUENCY, MASS, Conveyor, Start, pack
+from ..solver.status import OK, STATUS
+from . import block_motion
+from .corners import CORNERS, ROWS, STATE, X
+from .steps import STAGES
 
 BLOCK_TOLERANCE = 1e-8
 SMALLEST, LARGEST = 1e-6, 10.0  # m, of a block's length and height
 # m², of `inertia`; a block with the largest one does not turn.
 LEAST_INERTIA, LARGEST_INERTIA = 1e-24, 1e12
 LONG = 1000  # excitation cycles of all blocks, which take some tenths of a second
+NO_DISTANCES = np.empty(0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,26 +52,20 @@ class Block:
         if self.inertia is not None:
             check_number("inertia", self.inertia, LEAST_INERTIA, LARGEST_INERTIA, "m²")
 
-    def row(self) -> list[float]:
-        """Length, height and inertia, as block_motion.follow takes them."""
-        uniform = (self.length**2 + self.height**2) / 12.0
-        return [self.length, self.height, uniform if self.inertia is None else self.inertia]
-
 
 @dataclass(frozen=True, kw_only=True)
 class BlockRun:
-    """The result of `simulate_block`. It stores the final state; `sample` repeats the simulation.
+    """The result of `simulate_block`. `sample` repeats the simulation.
 
     Attributes
     ----------
     conveyor, block, start, tilt, duration, tolerance : the arguments of `simulate_block`
     status : "ok", or why the run ended early; all numbers but largest_tilt are then NaN
-    x_end, vx_end, z_end, vz_end, angle_end, spin_end : state at the end, as from `sample`
+    x_end : position of the centre at the end, m
     largest_tilt : largest size of the angle, rad; above π/2 the block has rolled over
     airtime : share of the duration without contact
     impact_speed : largest speed of approach of a corner at an impact over the last quarter, m/s; 0 if there is none
     peak_force : largest sum of the contact forces at the ends of steps over the last quarter, N
-    flights, steps : numbers of flights and of Runge-Kutta steps
     """
 
     conveyor: Conveyor
@@ -90,17 +77,10 @@ class BlockRun:
     status: str
     x_last: float
     x_end: float
-    vx_end: float
-    z_end: float
-    vz_end: float
-    angle_end: float
-    spin_end: float
     largest_tilt: float
     airtime: float
     impact_speed: float
     peak_force: float
-    flights: int
-    steps: int
 
     mean_velocity = mean_velocity
 
@@ -116,18 +96,17 @@ class BlockRun:
         times = check_array("times", times, 0.0, self.duration, "s", least=0)
         # The run ends at its duration, so that the last step is the same for all times.
         moments, place = np.unique(np.append(times.ravel(), self.duration), return_inverse=True)
-        rows = as_rows(parameter_table(self.conveyor, self.start))[None]
-        blocks = np.array([self.block.row()])
-        samples, _, _ = follow(rows, blocks, np.array([self.tilt]), moments[None], tolerance=self.tolerance)
-        place = place.ravel()[:-1]
-        return {name: samples[0, place, k].reshape(times.shape) for k, name in enumerate(block_motion.SAMPLES)}
+        rows = pack(self.conveyor, self.start)[None]
+        (samples,), _, _ = follow(rows, self.block, np.array([self.tilt]), moments[None], tolerance=self.tolerance)
+        samples = samples[place.ravel()[:-1]]
+        return {name: samples[:, k].reshape(times.shape) for k, name in enumerate(block_motion.SAMPLES)}
 
 
-def follow(rows, blocks, tilts, times, *, tolerance, since=None, distances=None):
-    """What block_motion.follow fills: samples, shape (n, k, 6), arrivals, shape (n, d), and results, shape (n, 10)."""
+def follow(rows, block, tilts, times, *, tolerance, since=0.0, distances=NO_DISTANCES):
+    """What block_motion.follow fills: samples, shape (n, k, 6), arrivals, shape (n, d), and results, shape (n, 9)."""
     n, k = times.shape
-    distances = np.empty(0) if distances is None else distances
-    since = np.zeros(n) if since is None else since
+    inertia = (block.length**2 + block.height**2) / 12.0 if block.inertia is None else block.inertia
+    blocks, since = np.tile([block.length, block.height, inertia], (n, 1)), np.full(n, since)
     samples, arrivals = np.empty((n, k, len(block_motion.SAMPLES))), np.empty((n, len(distances)))
     results = np.zeros((n, block_motion.RESULTS))
     workspace = np.empty((4, STATE)), np.empty((STAGES, STATE)), np.empty((ROWS, CORNERS))
@@ -175,12 +154,10 @@ def simulate_block(
     tilt = check_number("tilt", tilt, -math.pi, math.pi, "rad")
     duration, tolerance = check_time("duration", duration), check_tolerance(tolerance)
     before = (1.0 - LAST) * duration
-    rows, blocks = as_rows(parameter_table(conveyor, start))[None], np.array([block.row()])
-    times, since = np.array([[before, duration]]), np.array([before])
-    ((last, end),), _, (result,) = follow(rows, blocks, np.array([tilt]), times, tolerance=tolerance, since=since)
-    code = int(result[block_motion.CODE])
+    given = pack(conveyor, start)[None], block, np.array([tilt]), np.array([[before, duration]])
+    ((last, end),), _, (result,) = follow(*given, tolerance=tolerance, since=before)
+    code, largest_tilt, airtime, impact_speed, peak_force, *_ = result.tolist()
     known = 1.0 if code == OK else math.nan
-    names = ("x_end", "vx_end", "z_end", "vz_end", "angle_end", "spin_end")
     return BlockRun(
         conveyor=conveyor,
         block=block,
@@ -188,15 +165,13 @@ def simulate_block(
         tilt=tilt,
         duration=duration,
         tolerance=tolerance,
-        status=STATUS[code],
+        status=STATUS[int(code)],
         x_last=float(last[X]),
-        **dict(zip(names, end.tolist(), strict=True)),
-        largest_tilt=float(result[block_motion.TILT]),
-        airtime=known * float(result[block_motion.AIRTIME]) / duration,
-        impact_speed=known * float(result[block_motion.IMPACT_SPEED]),
-        peak_force=known * conveyor.mass * float(result[block_motion.PEAK_FORCE]),
-        flights=int(result[block_motion.FLIGHTS]),
-        steps=int(result[block_motion.STEPS]),
+        x_end=float(end[X]),
+        largest_tilt=largest_tilt,
+        airtime=known * airtime / duration,
+        impact_speed=known * impact_speed,
+        peak_force=known * conveyor.mass * peak_force,
     )
 
 
@@ -217,9 +192,9 @@ def block_transits(
     Parameters
     ----------
     parameters : from `parameter_table`, shape (n,); z0 as `start.z` of `simulate_block`
-    block, tilts : the block, and the initial angles (rad), shape (n,)
+    block, tilts : the block, and the initial angles (rad), a number or of shape (n,)
     length, longest : m, of the track; s, after which a part is late
-    begin : time (s) from which impacts, forces and flights count, below `longest`, shape (n,)
+    begin : time (s) from which impacts, forces and flights count, at most `longest`, a number or of shape (n,)
     tolerance, threads, progress : as in `sweep`
 
     Returns
@@ -240,38 +215,34 @@ def block_transits(
     check_type("block", block, Block)
     length = check_number("length", length, 0.0, math.inf, "m", above=True)
     longest = check_number("longest", longest, 0.0, LONGEST, "s", above=True)
-    tilts, begin = check_array("tilts", tilts, -math.pi, math.pi, "rad"), check_array("begin", begin, 0.0, LONGEST, "s")
-    if begin.max() > longest:
+    tilts = check_column("tilts", tilts, rows.shape[:1], -math.pi, math.pi, unit="rad").copy()
+    begin = check_column("begin", begin, rows.shape[:1], 0.0, LONGEST, unit="s").copy()
+    if (begin > longest).any():
         raise ValueError(f"begin = {begin.max()!s} s is after longest = {longest!r} s")
-    if not tilts.shape == begin.shape == (len(rows),):
-        raise ValueError(
-            f"tilts and begin have the shapes {tilts.shape} and {begin.shape}, but parameters have ({len(rows)},)"
-        )
-    arrival, travelled = np.empty(len(rows)), np.empty(len(rows))
+    arrival, travelled = np.empty((2, len(rows)))
     results = np.empty((len(rows), block_motion.RESULTS))
-    distances, blocks = np.array([length]), np.tile(block.row(), (len(rows), 1))
 
     def work(first, behind):
         part = slice(first, behind)
-        times = np.full((behind - first, 1), longest)
-        options = {"tolerance": tolerance, "since": begin[part], "distances": distances}
-        samples, arrivals, results[part] = follow(rows[part], blocks[part], tilts[part], times, **options)
+        given = rows[part], block, tilts[part], np.full((behind - first, 1), longest)
+        options = {"tolerance": tolerance, "since": begin[part], "distances": np.array([length])}
+        samples, arrivals, results[part] = follow(*given, **options)
         arrival[part], travelled[part] = arrivals[:, 0], samples[:, 0, X]
         return np.count_nonzero(results[part, block_motion.CODE] != OK)
 
     for_each_chunk(work, len(rows), threads=threads, chunk=16, progress=progress)
+    codes, largest_tilt, airtime, impact_speed, peak_force, *_ = results.T
     late = np.isnan(arrival)
     ends = np.where(late, longest, arrival)
-    known = ends > begin
+    known = np.where(ends > begin, 1.0, np.nan)
     columns = {
         "arrival": arrival,
         "velocity": np.where(late, travelled, length) / ends,
-        "impact_speed": np.where(known, results[:, block_motion.IMPACT_SPEED], np.nan),
-        "peak_force": np.where(known, rows[:, MASS] * results[:, block_motion.PEAK_FORCE], np.nan),
-        "airtime": np.where(known, results[:, block_motion.AIRTIME], np.nan) / np.where(known, ends - begin, np.nan),
-        "largest_tilt": results[:, block_motion.TILT].copy(),
+        "impact_speed": known * impact_speed,
+        "peak_force": known * rows[:, MASS] * peak_force,
+        "airtime": known * airtime / (known * (ends - begin)),
+        "largest_tilt": largest_tilt.copy(),
     }
     for column in columns.values():
-        column[results[:, block_motion.CODE] != OK] = np.nan
-    status = np.array(STATUS, dtype=object)[results[:, block_motion.CODE].astype(np.int64)]
-    return Columns(columns | {"status": status})
+        column[codes != OK] = np.nan
+    return Columns(columns | {"status": np.array(STATUS, dtype=object)[codes.astype(np.int64)]})

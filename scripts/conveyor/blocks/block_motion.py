@@ -8,45 +8,21 @@ that a step to its root is safe (see solver.flight for a point).
 
 import math
 
-from conveyor.blocks.corners import (
-    ANGLE,
-    CORNERS,
-    FORCE,
-    FORWARD,
-    FREE,
-    GAP,
-    MODE,
-    PULLED,
-    RATE,
-    SLIP,
-    SPIN,
-    STATE,
-    STICK,
-    VX,
-    VZ,
-    WHOLE,
-    Body,
-    X,
-    Z,
-    choose_modes,
-    derive,
-    locate,
-    margins_of,
-    push,
-)
-from conveyor.blocks.steps import PULL, STAGES, TOUCH, first_event, interpolate, take_step
-from conveyor.solver import contact, plate
-from conveyor.solver.flight import time_of_fall
-from conveyor.solver.jit import compiled, compiled_entry, no_refcount
-from conveyor.solver.model import VZ0, Z0
-from conveyor.solver.status import IMPACT_LOST, NOT_FINITE, OK, TOO_MANY_EVENTS, TOO_STIFF
+from ..solver import contact, plate
+from ..solver.flight import time_of_fall
+from ..solver.jit import compiled, compiled_entry, copy, no_refcount
+from ..solver.model import VZ0, Z0
+from ..solver.status import IMPACT_LOST, NOT_FINITE, OK, TOO_MANY_EVENTS, TOO_STIFF
+from . import corners
+from .corners import ANGLE, CORNERS, FREE, GAP, MODE, PULLED, RATE, SLIP, SPIN, STATE, VX, VZ, X, Z
+from .steps import PULL, STAGES, TOUCH, first_event, interpolate, take_step
 
 SAMPLES = ("x", "vx", "z", "vz", "angle", "spin")
 # Columns of the results of runs: the status code; the largest angle (rad); from the time `since` on, the time without
 # contact (s), the largest speed of approach of a corner (m/s) and the largest sum of contact forces per mass (m/s²);
-# numbers of flights, steps, and events; numbers of times with a sample and of distances reached.
-CODE, TILT, AIRTIME, IMPACT_SPEED, PEAK_FORCE, FLIGHTS, STEPS, EVENTS, SAMPLED, ARRIVED = range(10)
-RESULTS = 10
+# numbers of steps and of events; numbers of times with a sample and of distances reached.
+CODE, TILT, AIRTIME, IMPACT_SPEED, PEAK_FORCE, STEPS, EVENTS, SAMPLED, ARRIVED = range(9)
+RESULTS = 9
 
 TURN = 2.0 * math.pi
 BELOW = 2.0  # margins by which a corner may be below the plate in flight
@@ -75,7 +51,7 @@ def next_impact(c, body, theta, state, limit, after, now):
 
     Fills the state `after` it, and `now` there.
     """
-    reach, margin = math.hypot(body.half_length, body.half_height), margins_of(c).gap
+    reach, margin = math.hypot(body.half_length, body.half_height), corners.margins_of(c).gap
     bound = c.gravity + c.bounds.lift + reach * state[SPIN] * state[SPIN]
     tau = 0.0
     for _ in range(MAX_SEARCH):
@@ -84,7 +60,7 @@ def next_impact(c, body, theta, state, limit, after, now):
         clear = after[Z] - reach - c.bounds.height
         advance = time_of_fall(after[VZ], clear, c.gravity) if clear > margin else 0.0
         if clear <= margin or tau == limit:
-            locate(c, body, theta + c.omega * tau, after, now)
+            corners.locate(c, body, theta + c.omega * tau, after, now)
             if tau == limit:
                 return tau
             advance = math.inf
@@ -109,7 +85,7 @@ def touch(now, margin):
     touching, speed = False, 0.0
     for i in range(CORNERS):
         if now[MODE, i] == FREE and now[GAP, i] <= margin and now[RATE, i] < 0.0:
-            now[MODE, i], now[PULLED, i] = FORWARD, 0.0
+            now[MODE, i], now[PULLED, i] = corners.FORWARD, 0.0
             speed = max(speed, -now[RATE, i])
         elif now[MODE, i] != FREE and now[GAP, i] >= (-margin if now[RATE, i] > 0.0 else margin):
             now[MODE, i] = FREE
@@ -122,7 +98,7 @@ def keep_sticking(now, state):
     """Remove the error of a step in the slip velocity of corners that stick."""
     total, count = 0.0, 0
     for i in range(CORNERS):
-        if now[MODE, i] == STICK:
+        if now[MODE, i] == corners.STICK:
             total += now[SLIP, i]
             count += 1
     if count > 0:
@@ -157,7 +133,7 @@ def follow(
     samples : shape (n, k, 6), filled with the columns SAMPLES at the times (z above that at rest); with distances, at
         the last time only
     distances, arrivals : m, ascending, shape (d,); filled with the times (s) at which a centre is first there, (n, d)
-    results : zeros of the shape (n, 10), filled with the columns above
+    results : zeros of the shape (n, 9), filled with the columns above
     workspace : arrays to work in, of the shapes (4, 6), (7, 6) and (12, 4); the caller holds them
     """
     parameters, bodies, times, samples, distances, arrivals, results = no_refcount(
@@ -168,8 +144,8 @@ def follow(
     state, after, between, before = no_refcount((states[0], states[1], states[2], states[3]))
     for i in range(len(parameters)):
         c = contact.compute_constants(parameters[i], tolerance, harmonics)
-        body = Body(0.5 * bodies[i, 0], 0.5 * bodies[i, 1], bodies[i, 2])
-        margins = margins_of(c)
+        body = corners.Body(0.5 * bodies[i, 0], 0.5 * bodies[i, 1], bodies[i, 2])
+        margins = corners.margins_of(c)
         end, cycles = times[i, -1], 1.0 + times[i, -1] * c.omega / TURN
         result = results[i]
         theta, t = c.psi0 % TURN, 0.0
@@ -180,16 +156,16 @@ def follow(
         state[VX], state[VZ], state[SPIN] = 0.0, parameters[i, VZ0], 0.0
         result[TILT] = abs(tilts[i])
         now[:] = 0.0
-        locate(c, body, theta, state, now)
+        corners.locate(c, body, theta, state, now)
         touching = False
         for k in range(CORNERS):
             if now[GAP, k] <= 0.0:
-                now[MODE, k], touching = FORWARD, True
-        push(c, now)
+                now[MODE, k], touching = corners.FORWARD, True
+        corners.push(c, now)
         for k in range(CORNERS):
-            now[PULLED, k] = 1.0 if now[WHOLE, k] < 0.0 else 0.0
+            now[PULLED, k] = 1.0 if now[corners.WHOLE, k] < 0.0 else 0.0
         if touching:
-            choose_modes(c, body, theta, state, now, -1)
+            corners.choose_modes(c, body, theta, state, now, -1)
         # On a track: the length of a block of cycles, and the time at which it ends; the furthest position; the time
         # without contact before the block.
         before[:] = math.inf
@@ -200,7 +176,6 @@ def follow(
         while True:
             kind = TOUCH
             if not touching:
-                result[FLIGHTS] += 1.0
                 lapse = next_impact(c, body, theta, state, end - t, after, now)
                 if math.isnan(lapse):
                     code = IMPACT_LOST
@@ -211,7 +186,7 @@ def follow(
             else:
                 flying = False
                 if not known:
-                    derive(c, body, theta, state, now, stages[0])
+                    corners.derive(c, body, theta, state, now, stages[0])
                 lapse = min(length, LONGEST * TURN / c.omega, end - t)
                 error = take_step(c, body, theta, state, lapse, stages, after, now)
                 result[STEPS] += 1.0
@@ -231,7 +206,7 @@ def follow(
                     lapse *= share
                     take_step(c, body, theta, state, lapse, stages, after, now)
                 else:
-                    derive(c, body, theta + c.omega * lapse, after, now, stages[STAGES - 1])
+                    corners.derive(c, body, theta + c.omega * lapse, after, now, stages[STAGES - 1])
                 turn = state[SPIN] * after[SPIN]
                 if turn < 0.0:
                     # The rotation reverses: the spin is nearly linear in a step.
@@ -248,8 +223,7 @@ def follow(
                 else:
                     share = min((moment - t) / lapse, 1.0) if lapse > 0.0 else 1.0
                     interpolate(state, lapse, stages, after, share, between)
-                for k in range(STATE):
-                    samples[i, int(result[SAMPLED]), k] = between[k]
+                copy(samples[i, int(result[SAMPLED])], between)
                 samples[i, int(result[SAMPLED]), Z] -= body.half_height
                 result[SAMPLED] += 1.0
             furthest, skipped = max(furthest, after[X]), 0.0
@@ -271,8 +245,7 @@ def follow(
                     state[X] += skipped * advance
                     after[X] += skipped * advance
                     between[X] += skipped * advance
-                for k in range(STATE):
-                    before[k] = between[k]
+                copy(before, between)
                 airtime, due = result[AIRTIME], due + (skipped + 1.0) * block
             while result[ARRIVED] < len(distances) and after[X] >= distances[int(result[ARRIVED])]:
                 share = (distances[int(result[ARRIVED])] - state[X]) / (after[X] - state[X])
@@ -294,12 +267,11 @@ def follow(
             if not flying:
                 force = 0.0
                 for k in range(CORNERS):
-                    force += now[FORCE, k]
+                    force += now[corners.FORCE, k]
                 if t >= since[i]:
                     result[PEAK_FORCE] = max(result[PEAK_FORCE], force)
                 keep_sticking(now, state)
-                for k in range(STATE):
-                    stages[0, k] = stages[STAGES - 1, k]
+                copy(stages[0], stages[STAGES - 1])
                 known = kind > PULL
                 if known:
                     continue
@@ -309,19 +281,19 @@ def follow(
                     break
             slips = -1
             if flying or kind == TOUCH:
-                locate(c, body, theta, state, now)
+                corners.locate(c, body, theta, state, now)
                 touching, speed = touch(now, margins.gap)
                 if t >= since[i]:
                     result[IMPACT_SPEED] = max(result[IMPACT_SPEED], speed)
             elif kind == PULL:
                 now[PULLED, corner] = 1.0 - now[PULLED, corner]
-            elif now[MODE, corner] == STICK:
+            elif now[MODE, corner] == corners.STICK:
                 slips = corner
             else:
                 state[VX] += now[SLIP, corner]  # which is zero but for the margin
             known = False
             if touching:
-                choose_modes(c, body, theta, state, now, slips)
+                corners.choose_modes(c, body, theta, state, now, slips)
         result[CODE] = code
         samples[i, int(result[SAMPLED]) :] = math.nan
         arrivals[i, int(result[ARRIVED]) :] = math.nan

@@ -17,8 +17,8 @@ spin (rad/s).
 import math
 from collections import namedtuple
 
-from conveyor.solver import contact_law, friction, model, plate
-from conveyor.solver.jit import compiled, compiled_inline
+from ..solver import contact_law, friction, model, plate
+from ..solver.jit import compiled, compiled_inline
 
 X, VX, Z, VZ, ANGLE, SPIN = range(6)
 STATE = 6
@@ -103,11 +103,8 @@ def rub(c, body, pull, state, now):
         else:
             b = now[OZ, second]
             at_second = pull + spin2 * now[OX, second] - slide + b * (moment - lever) / body.inertia
-            both, of_first, of_second = (
-                1.0 + a * b / body.inertia,
-                1.0 + a * a / body.inertia,
-                1.0 + b * b / body.inertia,
-            )
+            both = 1.0 + a * b / body.inertia
+            of_first, of_second = 1.0 + a * a / body.inertia, 1.0 + b * b / body.inertia
             # The determinant without cancellation.
             extra = REGULAR * (of_first + of_second)
             determinant = (a - b) * (a - b) / body.inertia + extra * (of_first + of_second)

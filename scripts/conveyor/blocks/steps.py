@@ -8,26 +8,10 @@ import math
 
 import numpy as np
 
-from conveyor.blocks.corners import (
-    ANGLE,
-    CORNERS,
-    FORCE,
-    FORWARD,
-    FREE,
-    GAP,
-    MODE,
-    PULLED,
-    RUB,
-    SLIP,
-    STATE,
-    STICK,
-    WHOLE,
-    X,
-    derive,
-    margins_of,
-)
-from conveyor.solver import model
-from conveyor.solver.jit import compiled, compiled_inline
+from ..solver import model
+from ..solver.jit import compiled, compiled_inline, copy
+from . import corners
+from .corners import ANGLE, CORNERS, FORCE, FORWARD, FREE, GAP, MODE, PULLED, RUB, SLIP, STATE, STICK, WHOLE, X
 
 STAGES = 7
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
@@ -68,13 +52,12 @@ def take_step(c, body, theta, state, length, stages, after, now):
         end, for which `now` is then right
     """
     for k in range(1, STAGES):
-        for n in range(STATE):
-            after[n] = state[n]
+        copy(after, state)
         for j in range(k):
             weight = length * WEIGHTS[k, j]
             for n in range(STATE):
                 after[n] += weight * stages[j, n]
-        derive(c, body, theta + c.omega * NODES[k] * length, after, now, stages[k])
+        corners.derive(c, body, theta + c.omega * NODES[k] * length, after, now, stages[k])
     # The scale of velocities is that of a fall by the static penetration, or the velocity itself.
     reach = math.hypot(body.half_length, body.half_height)
     contact_time = c.scale_w * c.scale_w / c.scale_v
@@ -137,7 +120,7 @@ def first_event(c, body, theta, state, length, stages, after, now, between):
 
     now : as `take_step` leaves it; between : an array of the shape of a state
     """
-    margins, rates = margins_of(c), np.empty(STATE)
+    margins, rates = corners.margins_of(c), np.empty(STATE)
     share, first_kind, corner = 1.0, NONE, -1
     place = found = 0
     while place < CORNERS * NONE:
@@ -150,7 +133,7 @@ def first_event(c, body, theta, state, length, stages, after, now, between):
         # corner that has just left the plate may still be that far below it. A regula falsi (Illinois), whose interval
         # shrinks from both ends.
         at_end = guard(c, now, kind, i)
-        derive(c, body, theta, state, now, rates)
+        corners.derive(c, body, theta, state, now, rates)
         at_begin = guard(c, now, kind, i)
         level = half if at_begin > -half else 2.0 * half
         low, high, at_low, at_high, side = 0.0, share, at_begin + level, at_end + level, 0
@@ -159,7 +142,7 @@ def first_event(c, body, theta, state, length, stages, after, now, between):
             if at_low <= 0.0 or high - low <= CLOSE or not low < middle < high:
                 break
             interpolate(state, length, stages, after, middle, between)
-            derive(c, body, theta + c.omega * middle * length, between, now, rates)
+            corners.derive(c, body, theta + c.omega * middle * length, between, now, rates)
             value = guard(c, now, kind, i) + level
             if value > 0.0:
                 low, at_low = middle, value
@@ -175,6 +158,6 @@ def first_event(c, body, theta, state, length, stages, after, now, between):
         # Does another event come before this one, even one that is over at the end of the step?
         found += 1
         interpolate(state, length, stages, after, share, between)
-        derive(c, body, theta + c.omega * share * length, between, now, rates)
+        corners.derive(c, body, theta + c.omega * share * length, between, now, rates)
         place = 0 if share > 0.0 and found < CORNERS * NONE else CORNERS * NONE
     return share, first_kind, corner

@@ -28,11 +28,6 @@ def draw_landing(axes: Axes, landing: pd.DataFrame) -> None:
     axes.set_ylabel("height in µm")
 
 
-def shape_name(row: pd.Series) -> str:
-    """A shape in a legend."""
-    return "point" if np.isnan(row.length) else f"length {row.length:.3g}, height/length {row.height:g}"
-
-
 def draw_map(axes: Axes, shapes: pd.DataFrame, motion: str) -> None:
     """The relative difference of the median from that of points, over length and height; full cells are right."""
     rows = shapes[shapes.motion == motion]
@@ -61,22 +56,15 @@ def plot(*, bodies: pd.DataFrame, shapes: pd.DataFrame, landing: pd.DataFrame) -
     groups = bodies.fillna({"length": -1.0, "height": -1.0}).groupby(["length", "height"], sort=False)
     for colour, (_, index) in zip(COLOURS, groups.groups.items(), strict=False):
         rows = bodies.loc[index]
-        fast.plot(rows.acceleration, 100.0 * rows.velocity_50, color=colour, label=shape_name(rows.iloc[0]))
-        fast.fill_between(
-            rows.acceleration,
-            100.0 * rows.velocity_05,
-            100.0 * rows.velocity_95,
-            color=colour,
-            alpha=0.15,
-            linewidth=0.0,
-        )
+        shape = rows.iloc[0]
+        name = "point" if np.isnan(shape.length) else f"length {shape.length:.3g}, height/length {shape.height:g}"
+        low, median, high = (100.0 * rows[column] for column in ("velocity_05", "velocity_50", "velocity_95"))
+        fast.plot(rows.acceleration, median, color=colour, label=name)
+        fast.fill_between(rows.acceleration, low, high, color=colour, alpha=0.15, linewidth=0.0)
         ride.plot(rows.acceleration, 100.0 * rows.rides, color=colour)
         tilt.plot(rows.acceleration, rows.largest_tilt, color=colour)
-    for axes, label in (
-        (fast, "transit velocity in cm/s"),
-        (ride, "parts that ride in %"),
-        (tilt, "largest tilt in rad"),
-    ):
+    labels = "transit velocity in cm/s", "parts that ride in %", "largest tilt in rad"
+    for axes, label in zip((fast, ride, tilt), labels, strict=True):
         style.limit_x(axes, bodies.acceleration)
         axes.set_xlabel(style.AMPLITUDE if axes is fast else r"$\hat a$ in m/s²")
         axes.set_ylabel(label)

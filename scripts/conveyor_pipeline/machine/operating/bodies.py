@@ -9,32 +9,19 @@ import pandas as pd
 
 from conveyor import (
     Block,
-    Columns,
     Start,
-    block_transits,
     conveyor_and_start,
     length_and_speed_units,
     plate_motion,
     simulate_block,
     throw_number,
-    transits,
 )
 from conveyor_pipeline.common import fields
-from conveyor_pipeline.machine.operating.body_limits import (
-    AMPLITUDES,
-    LONGEST,
-    MOTIONS,
-    OF_A_CELL,
-    PARTS,
-    POINTS,
-    THROWS,
-    TILT,
-    TOLERANCE,
-    TRACK,
-)
-from conveyor_pipeline.machine.operating.parts import population, raise_blocks, tilts_of
+from conveyor_pipeline.machine.operating import body_limits
+from conveyor_pipeline.machine.operating.body_limits import MOTIONS, TILT
+from conveyor_pipeline.machine.operating.parts import population
 from conveyor_pipeline.machine.operating.populations import IDENTICAL
-from conveyor_pipeline.machine.operating.transit import quantiles, time_of_drop
+from conveyor_pipeline.machine.operating.transit import follow_parts, summarize
 
 LENGTH = fields.number("length", "1", "length of the block in units of g cos α/ω²; null for points")
 HEIGHT = fields.number("height", "1", "height over length; null for points")
@@ -79,44 +66,32 @@ LENGTHS, SLENDERNESS, CELLS = (10.0, 400.0), (0.05, 1.2), 6
 LANDING_PHASE, OUTLINES = 0.0, np.array([-0.03, 0.0, 0.02, 0.04, 0.07, 0.11, 0.16])
 
 
-def rides(run: Columns) -> np.ndarray:
-    """Whether parts have neither left the plate nor hit it after the drop onto the track, shape (n,)."""
-    return run.airtime == 0.0 if "airtime" in run else run.impact_speed == 0.0
-
-
 def measure(rows: np.ndarray, shape: tuple[float, float] | None, settings: dict, **options) -> list[dict]:
     """The measures of parts of one shape, or of points, at each amplitude in a table of populations.
 
     shape : length in units of g cos α/ω² and height over length
     """
-    model, parts = settings["model"], settings["starts"]
     unit, _ = length_and_speed_units(rows[0])
-    length, longest = TRACK * unit, LONGEST / model["frequency"]
-    begin = time_of_drop(rows["frequency"], longest)
-    options |= {"tolerance": TOLERANCE, "begin": begin}
-    if shape is None:
-        run = transits(rows, np.array([length]), np.array([longest]), **options)
-        velocity, tilt = run.velocity[:, 0], np.full(len(rows), np.nan)
-    else:
-        block, tilts = Block(shape[0] * unit, shape[0] * shape[1] * unit), np.resize(tilts_of(settings), len(rows))
-        started = raise_blocks(rows, block, tilts)
-        run = block_transits(started, block, tilts, length=length, longest=longest, **options)
-        velocity, tilt = run.velocity, run.largest_tilt
-    measures = []
-    for first in range(0, len(rows), parts):
-        own = slice(first, first + parts)
-        right = run.status[own] == "ok"
-        values, errors = quantiles(velocity[own][right]) if right.any() else np.full((2, 5), np.nan)
+    length, height = shape or (np.nan, np.nan)
+    longest = body_limits.LONGEST / settings["model"]["frequency"]
+    own = {**settings, "length": body_limits.TRACK * unit, "longest": longest, "tolerance": body_limits.TOLERANCE}
+    if shape:
+        own["body"] = {"length": length * unit, "height": length * height * unit, "tilt": TILT}
+    run, measures = follow_parts(rows, own, **options), []
+    for first in range(0, len(rows), settings["starts"]):
+        parts = run.select(slice(first, first + settings["starts"]))
+        summary, right = summarize(parts), parts.select(parts.status == "ok")
+        # Whether parts have neither left the plate nor hit it after the drop onto the track.
+        ride = (right.airtime if shape else right.impact_speed) == 0.0
         measures.append(
             {
                 "acceleration": rows["acceleration"][first],
-                "length": shape[0] if shape else np.nan,
-                "height": shape[1] if shape else np.nan,
-                **dict(zip(("velocity_05", "velocity_50", "velocity_95"), values[::2], strict=True)),
-                "velocity_50_stderr": errors[2],
-                "rides": rides(run)[own][right].mean() if right.any() else np.nan,
-                "largest_tilt": tilt[own][right].max(initial=np.nan if shape is None else 0.0),
-                "failed": np.count_nonzero(~right),
+                "length": length,
+                "height": height,
+                **{name: summary[name] for name in ("velocity_05", "velocity_50", "velocity_50_stderr", "velocity_95")},
+                "rides": ride.mean() if len(ride) else np.nan,
+                "largest_tilt": right.largest_tilt.max(initial=0.0) if shape else np.nan,
+                "failed": summary["failed"],
             }
         )
     return measures
@@ -153,19 +128,17 @@ def logarithmic(ends: tuple[float, float], count: int) -> list[float]:
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
     """The tables of curves and of the map for the settings of the config."""
     effort, model = settings["effort"], settings["model"]
-    settings = {**settings, "body": {"tilt": TILT}}
-
     unit = throw_number(1.0, **model)
-    curves = {**settings, "starts": max(4, round(effort * PARTS))}
-    throws = np.linspace(*THROWS, max(3, round(effort * AMPLITUDES)))
+    curves = {**settings, "starts": max(4, round(effort * body_limits.PARTS))}
+    throws = np.linspace(*body_limits.THROWS, max(3, round(effort * body_limits.AMPLITUDES)))
     rows = population(throws / unit, curves, IDENTICAL)
     options = {"threads": threads, "progress": progress}
     table = pd.DataFrame([row for shape in (None, *SHAPES) for row in measure(rows, shape, curves, **options)])
     table["throw_number"] = np.tile(throws, len(SHAPES) + 1)
-    cells = {**settings, "starts": max(4, round(effort * OF_A_CELL))}
+    cells = {**settings, "starts": max(4, round(effort * body_limits.OF_A_CELL))}
     side = max(2, round(effort * CELLS))
     rows = population(np.array(list(MOTIONS.values())) / unit, cells, IDENTICAL)
-    many = {**settings, "starts": max(4, round(effort * POINTS))}
+    many = {**settings, "starts": max(4, round(effort * body_limits.POINTS))}
     reference = population(np.array(list(MOTIONS.values())) / unit, many, IDENTICAL)
     points = [one["velocity_50"] for one in measure(reference, None, many, **options)]
     shapes = []
