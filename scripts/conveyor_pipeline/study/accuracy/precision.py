@@ -19,6 +19,7 @@ from conveyor.solver.polynomial import ORDER
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.study.accuracy import scipy_integrators
 from conveyor_pipeline.study.accuracy.scenes import TRUTH
+from conveyor_pipeline.study.accuracy.scipy_integrators import IntegratorRun
 from conveyor_pipeline.study.accuracy.timing import run_in_turns
 
 RUN = (
@@ -46,7 +47,7 @@ TABLES = {
 }
 
 SAMPLE_INTERVAL = (
-    7e-3  # s, between the times at which trajectories are compared: a multiple of each time step, with many phases
+    19e-3  # s, between the times at which trajectories are compared: a multiple of each time step, with many phases
 )
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13)
 STEPS = (1e-3, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 5e-6, 2e-6, 1e-6, 5e-7, 2e-7)  # s
@@ -98,7 +99,7 @@ class Result(NamedTuple):
     evaluations: int
     repeated: int  # evaluations saved by reusing the steps of a periodic motion
     status: str
-    run: Run | None  # None for SciPy
+    run: Run | IntegratorRun  # which has or gives the states at the sampled times
 
 
 def methods(default: float) -> list[Method]:
@@ -120,12 +121,16 @@ def most_evaluations(frequency: float, duration: float) -> int:
 
 
 def run_method(method: Method, conveyor: Conveyor, start: Start, duration: float) -> Result:
-    """The result of a run. A Taylor step of order n counts as n force evaluations, for n derivatives of the force."""
+    """The result of a run. A Taylor step of order n counts as n force evaluations, for n derivatives of the force.
+
+    Runs of SciPy interpolate at the sampled times. The other methods record their motion, which is sampled later.
+    """
     if method.treatment in scipy_integrators.TREATMENTS:
         name, treatment, tolerance, _ = method
         parameters, limit = parameter_table(conveyor, start), most_evaluations(conveyor.frequency, duration)
-        run = scipy_integrators.run(parameters, duration, name, treatment, tolerance, limit)
-        return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status, None)
+        times = sample_times(duration)
+        run = scipy_integrators.run(parameters, duration, name, treatment, tolerance, limit, times)
+        return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status, run)
     accuracy = {"tolerance": method.tolerance} if method.step is None else {"step": method.step}
     reuse = method.treatment != NO_REUSE
     run = simulate(conveyor, start, duration=duration, method=method.method, reuse=reuse, **accuracy)
@@ -134,32 +139,23 @@ def run_method(method: Method, conveyor: Conveyor, start: Start, duration: float
     return Result(run.mean_velocity(), end, order * run.work, order * run.repeats, run.status, run)
 
 
-def sample_times(settings: dict) -> np.ndarray:
+def sample_times(duration: float) -> np.ndarray:
     """The fixed times (s) at which trajectories are compared."""
-    return SAMPLE_INTERVAL * np.arange(1, int(settings["duration"] / SAMPLE_INTERVAL * (1.0 + 1e-9)) + 1)
+    return SAMPLE_INTERVAL * np.arange(1, int(duration / SAMPLE_INTERVAL * (1.0 + 1e-9)) + 1)
 
 
-def sample_trajectory(method: Method, run: Run | None, settings: dict) -> np.ndarray:
-    """x and z (m) at the fixed times, shape (n, 2).
-
-    run : the run of this method; None for SciPy, which then runs again
-    """
-    times = sample_times(settings)
-    if run is None:
-        # Twice as many, because interpolation may need evaluations.
-        limit = 2 * most_evaluations(settings["model"]["frequency"], settings["duration"])
-        name, treatment, tolerance, _ = method
-        parameters = grid.row_of(settings["model"])
-        summary = scipy_integrators.run(parameters, settings["duration"], name, treatment, tolerance, limit, times)
-        return summary.samples[:, [0, 2]]
-    samples = run.sample(times)
+def sample_trajectory(run: Run | IntegratorRun, duration: float) -> np.ndarray:
+    """x and z (m) at the fixed times, shape (n, 2)."""
+    if isinstance(run, IntegratorRun):
+        return run.samples[:, [0, 2]]
+    samples = run.sample(sample_times(duration))
     return np.stack([samples["x"], samples["z"]], axis=1)
 
 
-def trajectory_error(method: Method, run: Run | None, truth: np.ndarray, settings: dict) -> float:
+def trajectory_error(run: Run | IntegratorRun, truth: np.ndarray, settings: dict) -> float:
     """RMS error of x and z in units of the plate's motion."""
     scale = modes.scales(grid.row_of(settings["model"]))[[0, 2]]
-    return math.sqrt(np.mean(((sample_trajectory(method, run, settings) - truth) / scale) ** 2))
+    return math.sqrt(np.mean(((sample_trajectory(run, settings["duration"]) - truth) / scale) ** 2))
 
 
 def find_states(settings: dict, ends: np.ndarray) -> np.ndarray:
@@ -190,9 +186,8 @@ def make(settings: dict, repeats: int, *, progress: str | None = None) -> dict[s
 
     repeats : rounds of timed runs, in each of which the methods alternate
     """
-    reference_method = Method("event", NO_REUSE, TRUTH, None)
     scene = grid.conveyor_and_start(settings["model"])
-    truth = run_method(reference_method, *scene, settings["duration"])
+    truth = run_method(Method("event", NO_REUSE, TRUTH, None), *scene, settings["duration"])
     _, *scale = modes.scales(grid.row_of(settings["model"]))
     listed = methods(settings["default"])
     for method in listed:
@@ -202,10 +197,10 @@ def make(settings: dict, repeats: int, *, progress: str | None = None) -> dict[s
     run, columns = pd.DataFrame(listed), pd.DataFrame(results)
     velocity_error = (columns.mean_velocity / truth.mean_velocity - 1.0).abs()
     outcomes = judge_runs(results, velocity_error, truth, settings)
-    reference = sample_trajectory(reference_method, truth.run, settings)
+    reference = sample_trajectory(truth.run, settings["duration"])
     errors = [
-        trajectory_error(method, result.run, reference, settings) if outcome == "ok" else math.nan
-        for method, result, outcome in zip(listed, results, outcomes, strict=True)
+        trajectory_error(result.run, reference, settings) if outcome == "ok" else math.nan
+        for result, outcome in zip(results, outcomes, strict=True)
     ]
     return {
         "precision": {

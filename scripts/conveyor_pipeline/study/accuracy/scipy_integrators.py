@@ -39,9 +39,9 @@ class Failed(Exception):
 
 
 class Leg(NamedTuple):
-    """The motion in one mode, which ends at an event or at the end of the task, unless the integrator fails before."""
+    """The motion in one mode, which ends at an event or at the end of the task."""
 
-    t: float  # s, where it stopped
+    t: float  # s, where it ended
     state: np.ndarray  # x, ẋ, z, ż there (m, m/s), shape (4,)
     ended: int | None  # the event that ended it, a place among modes.ENDS of the mode; None where there is none
     samples: np.ndarray  # states at the wanted times up to `t`, shape (k, 4)
@@ -79,7 +79,8 @@ class Trajectory:
 def follow(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, rtol: float, atol: np.ndarray) -> Leg:
     """Follow the part in its present mode, from the time `begin` to `end` (s) at the latest.
 
-    Failed at the limit of evaluations, or if the interpolant of LSODA does not meet its own steps.
+    Failed at the limit of evaluations, at a step that is too small, or if the interpolant of LSODA does not meet its
+    own steps.
     """
     limit = trajectory.limit - trajectory.evaluations
     counting, derivatives = np.append(trajectory.parameters, 0.0), np.empty(4)
@@ -91,7 +92,10 @@ def follow(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, 
         return derivatives.copy()
 
     times = trajectory.times[len(trajectory.samples) :]
-    options = {"method": trajectory.integrator, "rtol": rtol, "atol": atol, "dense_output": bool((times <= end).any())}
+    times = times[times <= end]
+    # SciPy interpolates at these times only, and without them not at all.
+    wanted = np.union1d(times, [end]) if len(times) else None
+    options = {"method": trajectory.integrator, "rtol": rtol, "atol": atol, "t_eval": wanted}
     try:
         # Radau's numerical Jacobian of a part that never moves sideways overflows; `run` checks the result.
         with np.errstate(over="ignore", invalid="ignore"):
@@ -99,12 +103,16 @@ def follow(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, 
             solution = solve_ivp(right_side, (begin, end), state, events=events, **options)
     except ValueError as error:
         raise Failed(EVENT_LOST, int(counting[-1])) from error
-    ended = None
+    if not solution.success:
+        raise Failed(STEP_TOO_SMALL, int(counting[-1]))
+    states = np.reshape(solution.y, (4, -1))  # also if no wanted time was reached
     if solution.status == 1:
         ended = next(place for place, zeros in enumerate(solution.t_events) if len(zeros))
-    passed = times[times <= solution.t[-1]]
-    samples = solution.sol(passed).T if len(passed) else np.empty((0, 4))
-    return Leg(float(solution.t[-1]), solution.y[:, -1].copy(), ended, samples, int(counting[-1]))
+        t, last = float(solution.t_events[ended][0]), solution.y_events[ended][0]
+    else:
+        ended, t, last = None, end, states[:, -1]
+    samples = states[:, : np.searchsorted(times, t, side="right")].T
+    return Leg(t, last.copy(), ended, samples, int(counting[-1]))
 
 
 def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, treatment: str, rtol: float):
@@ -121,8 +129,6 @@ def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray,
         trajectory.samples.extend(leg.samples)
         if trajectory.evaluations >= trajectory.limit:
             raise Failed(GAVE_UP, 0)
-        if leg.ended is None and leg.t < end:
-            raise Failed(STEP_TOO_SMALL, 0)
         if leg.t > t:
             met.clear()
         t, state = leg.t, leg.state

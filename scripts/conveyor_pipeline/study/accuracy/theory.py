@@ -108,10 +108,12 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
     gravity, vertical = normal_gravity(model), math.sin(model["angle"])
     middle = 0.5 * (low + high)
     # On the rigid orbit, the part leaves with the velocity g T/2, and the plate has the velocity g T (1 - e)/(1 + e)/2.
-    phase = math.pi - math.asin(low / middle)
+    # Half a cycle later, the part is at the top of its flight, g T²/8 higher, and the plate as far below its middle
+    # position as it was above. There, no impact passes the phase at which the orbit is followed.
+    phase = 2.0 * math.pi - math.asin(low / middle)
     conveyor = linear_contact(model, stiffness, restitution, acceleration=middle * gravity / vertical, psi0=phase)
     plate = plate_motion(conveyor, np.zeros(1))["z"][0]
-    start = Start(z=plate, vz=0.5 * gravity / model["frequency"])
+    start = Start(z=gravity / (8.0 * model["frequency"] ** 2) - plate, vz=0.0)
     orbit = periodic_orbit(conveyor, start, transient=CYCLES)
     if orbit is None or orbit.impacts != 1:
         raise JobError(f"no orbit with one impact per cycle for e = {restitution:g}; take a stiffer contact")
