@@ -4,8 +4,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from conveyor.solver.status import EVENT_LOST, GAVE_UP, NOT_FINITE, OK, STATUS, STEP_TOO_SMALL, STUCK
 from conveyor_pipeline.study.accuracy import precision, speed
+from conveyor_pipeline.study.accuracy.scipy_integrators import (
+    EVENT_LOST,
+    GAVE_UP,
+    NOT_FINITE,
+    OK,
+    STEP_TOO_SMALL,
+    STUCK,
+)
 from conveyor_pipeline.study.caption_numbers.work_precision import numbers
 from conveyor_pipeline.study.figures import work_precision
 
@@ -26,7 +33,7 @@ def test_failures_are_listed_in_order():
 
 
 def test_every_outcome_has_a_marker():
-    of_runs = {STATUS[code] for code in (OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE)}
+    of_runs = {OK, GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST, NOT_FINITE}
     assert set(work_precision.OUTCOMES) == {*of_runs, precision.WRONG, precision.THROUGH}
 
 
