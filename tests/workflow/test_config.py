@@ -33,6 +33,22 @@ WRONG = [
     ({"model": {"mass": "0.3 mm"}}, "model.mass = '0.3 mm' has a unit of another dimension; give kg, g or mg"),
     ({"model": {"angle": "20 grd"}}, "model.angle = '20 grd' has an unknown unit; give rad or deg"),
     ({"model": {"angle": "120 deg"}}, "model.angle = '120 deg' should be at most 1.5708 (rad)"),
+    (
+        {"model": {"angle": "25 Grad"}},
+        "model.angle = '25 Grad' should be at most 1.5708 (rad), and is 2.5e+10; give rad or deg",
+    ),
+    (
+        {"model": {"acceleration": "0.25 mm", "frequency": "100 Hz"}},
+        "at model.frequency = 100 Hz, 0.25 mm zero to peak are 98.7 m/s², and 0.25 mm peak to peak are 49.35 m/s²",
+    ),
+    (
+        {"operating": {"acceleration": ["0.5 mm peak to peak"]}, "model": {"frequency": 100}},
+        "0.5 mm zero to peak are 197.4 m/s², and 0.5 mm peak to peak are 98.7 m/s²",
+    ),
+    (
+        {"model": {"acceleration": "0.25 mm", "frequency": "5 kg"}},
+        "model.acceleration = '0.25 mm' has a unit of another dimension; give m/s², mm/s² or g",
+    ),
     ({"model": {"mass": "0,8 g"}}, "write decimal points, not commas"),
     ({"model": {"mass": "heavy"}}, "model.mass = 'heavy' should be a number, or one with a unit: kg, g or mg"),
     ({"parts": {"friction": "2 mm"}}, "parts.friction = '2 mm' has a unit of another dimension; give %, or no unit"),

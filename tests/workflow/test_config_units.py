@@ -20,6 +20,8 @@ CONFIG = read_config()
     [
         ("20 deg", "rad", math.radians(20.0)),
         ("20°", "rad", math.radians(20.0)),
+        ("20 °", "rad", math.radians(20.0)),
+        ("20 degrees", "rad", math.radians(20.0)),
         ("0.8 g", "kg", 0.8e-3),
         ("4 g", "m/s²", 4.0 * 9.80665),
         ("4g", "m/s²", 4.0 * 9.80665),

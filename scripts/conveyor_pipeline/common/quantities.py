@@ -106,6 +106,17 @@ def in_unit(text: str, unit: str) -> float:
     return float(f"{quantity.to(key).magnitude:.{DIGITS}g}")
 
 
+def length_in(text: str) -> str | None:
+    """The length at the beginning of a text, such as "0.5 mm" in "0.5 mm peak to peak", or None."""
+    found = QUANTITY.fullmatch(text)
+    length = f"{found[1]} {found[2].split()[0]}" if found else ""
+    try:
+        in_unit(length, "m")
+    except QuantityError:
+        return None
+    return length
+
+
 def exponent_of(text: str) -> float | None:
     """The exponent p of a stiffness in N/m^p, or None for any other quantity.
 

@@ -7,9 +7,11 @@ from reprlib import Repr
 from textwrap import shorten
 from typing import Any
 
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
-from conveyor_pipeline.common.settings import is_number
+from conveyor_pipeline.common.quantities import KEYS, in_unit, length_in
+from conveyor_pipeline.common.settings import MODEL_TYPES, is_number
+from conveyor_pipeline.config.entries import ENTRIES
 from conveyor_pipeline.config.model import MODEL
 from conveyor_pipeline.config.schema import options_of, schema_at, unit_of
 
@@ -53,6 +55,22 @@ def given_at(config: Any, path: Iterable[str | int], validated: Any) -> Any:
     except (KeyError, IndexError, TypeError):
         return validated
     return config if isinstance(config, str) else validated
+
+
+def acceleration_of(text: str, config: Any) -> str:
+    """The remedy for an amplitude that is given as a length: the accelerations of both readings; else empty."""
+    length = length_in(text)
+    try:
+        frequency = TypeAdapter(MODEL_TYPES["frequency"]).validate_python(config["model"]["frequency"])
+    except (KeyError, TypeError, ValidationError):
+        return ""
+    if length is None:
+        return ""
+    peak = (2.0 * math.pi * frequency) ** 2 * in_unit(length, "m")
+    return (
+        f"; at model.frequency = {frequency:g} Hz, {length} zero to peak are {peak:.4g} m/s², and "
+        f"{length} peak to peak are {0.5 * peak:.4g} m/s²"
+    )
 
 
 def explain(error: dict, config: Any) -> str:
@@ -101,6 +119,12 @@ def explain(error: dict, config: Any) -> str:
     has_unit = isinstance(value, str) and not is_number(value)
     if kind == "less_than_equal" and unit == "rad" and not has_unit and (degrees := float(value)) <= 360:
         remedy = f"; angles are in radians, {degrees:g}° are {math.radians(degrees):.4f} rad: write {degrees:g} deg"
+    if (
+        has_unit and kind == "quantity" and unit == "m/s²" and path[0] not in ENTRIES
+    ):  # entries may have another frequency
+        remedy = acceleration_of(value, config)
+    if has_unit and BOUNDS.keys() & error.get("ctx", {}).keys() and unit in KEYS:
+        remedy = f", and is {error['input']:.4g}; give {KEYS[unit]}"
     names_unit = unit not in ("", "1") and kind != "quantity"
     return f"{shown} {fault}{f' ({unit})' if names_unit else ''}{remedy}"
 

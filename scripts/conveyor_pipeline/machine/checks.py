@@ -10,6 +10,7 @@ from conveyor_pipeline.config.checks import LARGEST_TABLE
 from conveyor_pipeline.machine.calibration import measurements
 from conveyor_pipeline.machine.excitation.limits import STATEMENT
 from conveyor_pipeline.machine.operating.settings import transit_axis
+from conveyor_pipeline.machine.operating.supply import FARTHEST
 
 AMPLITUDE_ERROR = 2.0  # no part has a drive whose amplitude is so many times the set one
 
@@ -56,7 +57,16 @@ def supply(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     is_given = own != defaults["supply"] or stated.get("supply", own) != own
     if "resonance" not in own and is_given:
         yield "supply.resonance is missing; without it, the range of the amplitude is not known"
-    if "resonance" in own and own["frequency"] >= frequency:
+    if "resonance" not in own:
+        return
+    resonance = f"supply.resonance = {own['resonance']!r} Hz"
+    remedy = "give the resonance in which the drive with its load moves along the direction of vibration"
+    if own["resonance"] > FARTHEST * frequency:
+        yield f"{resonance} is more than {FARTHEST:g} times model.frequency = {frequency!r} Hz; {remedy}"
+    # Unbalanced masses and voice coils may run far above the resonance of soft springs, an electromagnet cannot.
+    if own["force"] == "voltage²" and FARTHEST * own["resonance"] < frequency:
+        yield f"{resonance} is less than 1/{FARTHEST:g} of model.frequency = {frequency!r} Hz; {remedy}"
+    if own["frequency"] >= frequency:
         yield f"supply.frequency = {own['frequency']!r} Hz is not below model.frequency = {frequency!r} Hz; give less"
 
 

@@ -62,11 +62,19 @@ def test_advice_depends_on_the_supply_only_if_it_is_stated():
         ({"resonance": 52.0, "frequency": 60.0}, "supply.frequency = 60.0 Hz is not below model.frequency = 50.0 Hz"),
         ({"resonance": 52.0, "force": "current"}, "supply.force = 'current' should be 'voltage²', 'voltage' or"),
         ({"resonance": "52 mm"}, "supply.resonance = '52 mm' has a unit of another dimension; give Hz"),
+        ({"resonance": 160.0}, "supply.resonance = 160.0 Hz is more than 3 times model.frequency = 50.0 Hz"),
+        ({"resonance": 16.0}, "supply.resonance = 16.0 Hz is less than 1/3 of model.frequency = 50.0 Hz"),
+        ({"resonance": 160.0, "force": "frequency²"}, "supply.resonance = 160.0 Hz is more than 3 times"),
         ({"resonance": 52.0, "voltage": 5}, "supply.voltage = 5 should be less than 1"),
     ],
 )
 def test_impossible_supplies_are_refused(supply, message):
     assert any(message in line for line in problems(merged(CONFIG, {"supply": supply})))
+
+
+@pytest.mark.parametrize("force", ["voltage", "frequency²"])
+def test_drives_other_than_electromagnets_may_run_far_above_their_resonance(force):
+    assert problems(merged(CONFIG, {"supply": {"resonance": 3.0, "force": force}})) == []
 
 
 def test_a_place_is_as_good_as_the_worst_amplitude_of_the_table_within_its_range():

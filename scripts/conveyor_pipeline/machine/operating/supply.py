@@ -13,6 +13,9 @@ import math
 
 # Powers of the voltage and of the frequency in the force.
 FORCES = {"voltage²": (2, 0), "voltage": (1, 0), "frequency²": (0, 2)}
+# Largest ratio of resonance and excitation, either way. Beyond it, the displacement is at most an eighth larger than
+# under a constant force of this size, or at most an eighth of it: a drive is tuned to a nearer resonance.
+FARTHEST = 3.0
 POINTS = 400  # intervals in which the range of the frequency is searched
 DIGITS = 6  # of the range
 
