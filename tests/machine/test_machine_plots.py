@@ -77,3 +77,17 @@ def test_advised_amplitudes_are_marked_with_their_aims():
         operating.mark_advice(axes, pd.DataFrame({"aim": ["fast", "even"], "acceleration": amplitudes}))
         assert [text.get_text() for text in axes.texts] == labels
         assert [line.get_xdata()[0] for line in axes.lines] == amplitudes[: len(labels)]
+
+
+@pytest.mark.parametrize("scale", ["linear", "log"])
+def test_labels_of_advised_amplitudes_lie_above_all_lines(scale):
+    """In the lowest panel that has labels, on the right of an axis whose last amplitude is advised."""
+    figure = Figure(figsize=(5.0, 1.2), layout="constrained")
+    axes = figure.subplots()
+    axes.set_yscale(scale)
+    axes.plot([20.0, 90.0], [0.1, 5.0])
+    axes.set_xlim(20.0, 90.0)
+    operating.mark_advice(axes, pd.DataFrame({"aim": ["fast", "even"], "acceleration": [90.0, 50.0]}))
+    style.lay_out(figure)
+    top = axes.transData.transform((90.0, 5.0))[1]
+    assert all(text.get_window_extent().y0 > top for text in axes.texts if text.get_text() == "fast")

@@ -18,6 +18,7 @@ LOOKS = {
     CHAOS: {"facecolor": style.STATE_COLOURS["chaos"]},
     UNKNOWN: {"facecolor": style.STATE_COLOURS["undecided"]},
 }
+LABEL = 0.09  # height of a label in the lowest panel that has labels, over the height of this panel
 
 
 def draw_regimes(strip: Axes, shares: pd.DataFrame, regimes: pd.DataFrame) -> list[Patch]:
@@ -35,8 +36,11 @@ def draw_regimes(strip: Axes, shares: pd.DataFrame, regimes: pd.DataFrame) -> li
 
 
 def mark_advice(axes: Axes, advice: pd.DataFrame) -> None:
-    """Draw a line with a label at each advised amplitude, after the limits of the axes are known."""
+    """Draw a line with a label at each advised amplitude, above all that is drawn before."""
     middle = np.mean(axes.get_xlim())
+    lines, scale = advice.acceleration.nunique(), axes.yaxis.get_transform()
+    low, high = scale.transform(axes.get_ylim())
+    axes.set_ylim(top=scale.inverted().transform(low + (high - low) / (1.0 - LABEL * lines)))
     for line, (acceleration, aims) in enumerate(advice.groupby("acceleration", sort=False).aim):
         axes.axvline(acceleration, color="black", linewidth=0.6, linestyle=":")
         # The label lies on the side with more room, and the second one below the first.
