@@ -119,9 +119,8 @@ def explain(error: dict, config: Any) -> str:
     has_unit = isinstance(value, str) and not is_number(value)
     if kind == "less_than_equal" and unit == "rad" and not has_unit and (degrees := float(value)) <= 360:
         remedy = f"; angles are in radians, {degrees:g}° are {math.radians(degrees):.4f} rad: write {degrees:g} deg"
-    if (
-        has_unit and kind == "quantity" and unit == "m/s²" and path[0] not in ENTRIES
-    ):  # entries may have another frequency
+    # Entries may have frequencies of their own.
+    if has_unit and kind == "quantity" and unit == "m/s²" and path[0] not in ENTRIES:
         remedy = acceleration_of(value, config)
     if has_unit and BOUNDS.keys() & error.get("ctx", {}).keys() and unit in KEYS:
         remedy = f", and is {error['input']:.4g}; give {KEYS[unit]}"
