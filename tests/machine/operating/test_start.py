@@ -153,7 +153,7 @@ def test_the_amplitude_rises_stays_and_falls():
 
 @pytest.fixture(scope="module")
 def made() -> tuple[pd.DataFrame, dict[str, pd.DataFrame]]:
-    advice = pd.DataFrame({"aim": ["fast", "even"], "acceleration": [44.0, 40.0], "throw_number": [0.93, 0.85]})
+    advice = pd.DataFrame({"aim": ["fast", "even"], "acceleration": [44.0, 40.0]})
     few = {**SETTINGS, "starts": 12, "acceleration": {"start": 38.0, "stop": 46.0, "num": 5}, "push": [0.3]}
     with pytest.MonkeyPatch.context() as patch:
         for name, value in (("HOLD", 30), ("PUSHED", 30), ("STEP", 1e-2)):
@@ -170,12 +170,21 @@ def test_the_page_says_whether_it_matters_how_the_drive_is_switched_on(made):
     page = start_page.make(TEMPLATE, advice, *(tables[name] for name in start.TABLES))
     first = page.splitlines()[2]
     assert first.startswith(
-        "**Switched on at 44 m/s² (Γ = 0.93, 0.892 mm peak to peak), the fast amplitude, all parts ride"
+        "**Switched on at 44 m/s² (Γ = 0.933, 0.892 mm peak to peak), the fast amplitude, all parts ride"
     )
     assert "depends on how you switch on" in first
     assert "ride at all amplitudes up to" in first
     assert page.count("| switched on with the parts on the plate | 0 % |") == 2
     assert "None" not in page and "nan" not in page
+
+
+def test_pushes_that_change_nothing_have_a_sentence_in_place_of_a_table(made):
+    advice, tables = made
+    calm = tables["pushes"].assign(riding=0, made_jump=np.nan, jumping=12, made_ride=0.0)
+    calm.attrs = tables["pushes"].attrs
+    page = start_page.make(TEMPLATE, advice, *((tables | {"pushes": calm})[name] for name in start.TABLES))
+    assert page.count("no push of up to 30 cm/s away from the plate makes one ride") == 2
+    assert "| Push" not in page
 
 
 def test_a_push_makes_riding_parts_jump(made):

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
+from conveyor import throw_number
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.advice import EVEN, FAST
 from conveyor_pipeline.machine.operating.chart import stroke
@@ -75,7 +76,7 @@ def make(
     for row in advice.to_dict("records"):
         ways = ways_at(row["aim"], start, start_motions)
         own = pushes[pushes.aim == row["aim"]].replace({np.nan: None}).to_dict("records")
-        about = {key: row[key] for key in ("aim", "acceleration", "throw_number")} | extremes(ways)
+        about = {key: row[key] for key in ("aim", "acceleration")} | extremes(ways)
         runs.append(about | {"ways": ways, "depends": depends(ways, settings["starts"]), "pushes": own})
     if len(runs) == 2 and runs[0]["acceleration"] == runs[1]["acceleration"]:
         runs = [runs[0] | {"aim": f"{FAST} and {EVEN}"}]
@@ -100,6 +101,7 @@ def make(
         "varied": VARIED,
         "ends": (slow.acceleration.min(), slow.acceleration.max()),
         "stroke_per_amplitude": stroke(1.0, settings["model"]["frequency"]),
+        "throw_number_per_amplitude": throw_number(1.0, **settings["model"]),
         "failed": int(start_motions.failed.sum()),
         "step": STEP,
         "cycles": CYCLES,
