@@ -314,6 +314,15 @@ def test_peaks_that_are_cut_off_before_some_noise_are_refused(limit):
     assert "cut-off peaks in the column x" in fault_of(text_of(time, readings))
 
 
+@pytest.mark.parametrize(("rate", "count"), [(730.0, 131), (730.0, 262), (913.0, 164), (1130.0, 271)])
+def test_cut_off_peaks_are_refused_also_in_a_short_recording(rate, count):
+    """With so few phases that the readings near the extremes do not show it, but the wave between them does."""
+    time, readings = sampled(rate, count=count)
+    readings[0] = np.minimum(readings[0], 0.9 * readings[0].max())
+    readings += 3e-4 * readings.max() * np.random.default_rng(2).standard_normal(readings.shape)
+    assert "cut-off peaks in the column x" in fault_of(text_of(time, readings))
+
+
 # Factors of x and z, settings, and what the message must say.
 DIRECTIONS = {
     "all negated": (-1, -1, {}, 'excitation.columns: {time: time, x: "-x", z: "-z"}'),

@@ -12,6 +12,7 @@ import numpy as np
 from conveyor_pipeline.machine.excitation.gravity import SURE, direction_fault, gravity_of, size_fault
 from conveyor_pipeline.machine.excitation.harmonics import (
     Fit,
+    design_of,
     duration_of,
     first_fit,
     fit,
@@ -41,6 +42,7 @@ from conveyor_pipeline.machine.excitation.reading import (
     remedy_of_line,
 )
 from conveyor_pipeline.machine.excitation.sample_times import CHECKED, MOST_EQUAL, MOST_GAPS, keep, repeats, resolve
+from conveyor_pipeline.machine.excitation.saturation import is_cut_off
 
 LEAST_CYCLES = 8
 LEAST_PER_CYCLE = 8  # samples; with fewer, harmonics of low orders are aliased
@@ -319,8 +321,11 @@ def saturation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     recording, fitted = signal.recording, signal.fitted
     phases = np.sort(np.mod((recording.time - fitted.middle) * fitted.frequency, 1.0))
     gap = max(float(np.diff(phases).max()), 1.0 + phases[0] - phases[-1])
+    centred = signal.time - fitted.middle
+    design = design_of(centred, centred[-1], fitted.frequency, fitted.orders)
     for key, readings in zip(recording.columns, recording.readings, strict=True):
-        if flattened(readings, recording.quanta.max(), gap):
+        quantum = recording.quanta.max()
+        if flattened(readings, quantum, gap) or is_cut_off(readings[: len(centred)], quantum, design):
             yield (
                 None,
                 f"has cut-off peaks in the column {recording.names[key].lstrip('-')}; record again with a larger range "

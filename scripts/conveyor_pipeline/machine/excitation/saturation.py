@@ -1,0 +1,52 @@
+"""Peaks that are cut off before some noise, also in a recording of few phases.
+
+A wave of few harmonics explains the readings between their extremes, and would exceed a flat extreme.
+"""
+
+import math
+
+import numpy as np
+
+HALVINGS = np.arange(5, 13)  # widths of the strips at both extremes, in halves of the span of the readings
+LEAST = 8  # samples in a strip
+# Standard errors by which the wave must exceed the readings in a strip, standard deviations of these readings, and
+# errors that missing orders make by way of the readings between.
+SURE, FLAT, EXPLAINED = 6.0, 4.0, 6.0
+CHANCE = 1e-3  # that more orders seem to explain the readings between the extremes better
+SINGULAR = 1e12  # condition number of samples at too few phases
+
+
+def exceeds(values: np.ndarray, quantum: float, design: np.ndarray, width: float) -> bool:
+    """Whether a wave that explains the values between strips of one width at their extremes exceeds the upper strip."""
+    from scipy.special import fdtri
+
+    strip = values >= values.max() - width
+    between = (values > values.min() + 2.0 * width) & (values < values.max() - 2.0 * width)
+    part, count, orders = design[:, between], np.count_nonzero(between), len(design) // 2 - 1
+    gram, products = part @ part.T, part @ values[between]
+    if np.count_nonzero(strip) < LEAST or count <= 2 * len(design) or np.linalg.cond(gram) > SINGULAR:
+        return False
+    most = products @ np.linalg.solve(gram, products)
+    variance = (values[between] @ values[between] - most) / (count - len(design))
+    flat = values[strip].std() + quantum
+    for low in range(1, orders):
+        rows = np.r_[: 2 + low, 2 + orders : 2 + orders + low]
+        inverse, mean = np.linalg.inv(gram[np.ix_(rows, rows)]), design[np.ix_(rows, strip)].mean(axis=1)
+        coefficients, more = inverse @ products[rows], 2 * (orders - low)
+        excess = coefficients @ mean - values[strip].mean()
+        leverage, chance = mean @ inverse @ mean, more * variance * fdtri(more, count - len(design), 1.0 - CHANCE)
+        is_explained = most - coefficients @ products[rows] < chance + (excess / EXPLAINED) ** 2 / leverage
+        if is_explained and excess > max(SURE * math.sqrt(variance * leverage), FLAT * flat):
+            return True
+    return False
+
+
+def is_cut_off(readings: np.ndarray, quantum: float, design: np.ndarray) -> bool:
+    """Whether the peaks of one column are cut off above or below.
+
+    readings : with the smallest step `quantum`, m/s², shape (n,)
+    design : offset, drift, cosines and sines of the harmonics as rows, shape (2 + 2 K, n)
+    """
+    centred = readings - readings.mean()
+    widths = np.ptp(readings) * 0.5**HALVINGS
+    return any(exceeds(values, quantum, design, width) for values in (centred, -centred) for width in widths)
