@@ -36,6 +36,8 @@ def planned(overlay: dict, tmp_path, *targets: str):
         ({}, True),
         (read_config("reduced"), True),
         ({"model": {"static_friction": 0.15, "harmonics": [], "friction": 0.15, "frequency": 50}}, True),
+        ({"prefix": "mine", "model": {"static_friction": 0.15}}, True),
+        ({"prefix": "mine", "model": {"harmonics": []}}, True),
         ({"prefix": "mine", "model": {"friction": 0.2}}, False),
         ({"prefix": "mine", "model": {"static_friction": 0.2}}, False),
         ({"prefix": "mine", "model": {"harmonics": [HARMONIC]}}, False),
