@@ -416,8 +416,11 @@ def test_the_page_begins_with_the_advice(refined):
     assert "- Up to 90 parts of 20 mm per minute at this velocity, one behind the other\n" in page
     assert "- Late: 12.5 % of the parts need more than 20 s for 0.5 m. None has moved back\n" in page
     assert "- Impact speed up to 10 cm/s, contact force up to 0.5 N (50 times the weight of the part)" in page
-    assert "- Motion: riding (100 %) of the initial conditions; in the table below: one velocity\n" in page
-    assert "- Motion at 60 m/s², the nearest amplitude at which it was examined: chaos (100 %) of the initial" in page
+    assert "- Motion of the initial conditions: riding (100 %); in the table below: one velocity\n" in page
+    assert (
+        "- Motion of the initial conditions at 60 m/s², the nearest amplitude at which it was examined: chaos (100 %);"
+        in page
+    )
     assert "; in the table below: chaos only\n" in page
     assert "m/s" not in re.sub("cm/s|m/s²", "", page)
     assert "  - friction of 0.17 (now 0.15): velocity +20 ± 4 %, spread -0.4 ± 1.0 %\n" in page
@@ -445,7 +448,7 @@ def test_the_page_of_blocks_compares_its_advice_with_that_of_points(refined):
     even = "For even feeding, a point mass would have led to another advice: 40 m/s², where the slowest 5 %"
     assert f"{even} of the blocks have 1 cm/s.**" in begin
     assert "Up to 360 parts of 5 mm per minute" in page
-    assert "- Motion of a point mass: riding" in page
+    assert "- Motion of the initial conditions, of a point mass: riding" in page
     assert "point mass" not in page_of(refined, advised())
 
 
