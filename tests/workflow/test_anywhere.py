@@ -37,12 +37,6 @@ def test_results_go_to_the_working_directory(tmp_path):
     assert (folder / "figures/fig01.pdf").stat().st_size > 10_000
 
 
-def test_captions_and_pages_find_their_templates_from_elsewhere(tmp_path):
-    arguments = ("--snakefile", str(ROOT / "Snakefile"), "--directory", str(tmp_path), "--dry-run")
-    targets = ("results/captions/fig01.rst", "docs/companion.html", "article", "site", "all")
-    snakemake(ROOT.parent, *targets, *arguments)
-
-
 def test_a_file_of_the_repository_is_not_made_again_from_elsewhere(tmp_path):
     """It is made in the working directory, also if a rule reads the file of the repository."""
     arguments = ("--snakefile", str(ROOT / "Snakefile"), "--directory", str(tmp_path), "--dry-run")

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
-from project import ROOT, Project
+from project import ROOT, Project, call_snakemake
 from snakemake.cli import parse_args
 
 from conveyor import __version__
@@ -109,6 +109,13 @@ def test_github_publishes_the_site_that_the_config_makes(tmp_path):
     assert run.returncode == 0, run.stdout
     for target in ("site", "article", "companion"):
         assert re.search(rf"^{target} +1$", run.stdout, re.MULTILINE)
+
+
+def test_captions_and_pages_find_their_templates_from_elsewhere(tmp_path):
+    targets = ("results/captions/fig01.rst", "docs/companion.html", "article", "site", "all")
+    arguments = ("--snakefile", str(ROOT / "Snakefile"), "--directory", str(tmp_path), "--dry-run")
+    run = call_snakemake("--cores", "2", *targets, *arguments, folder=ROOT.parent)
+    assert run.returncode == 0, run.stdout
 
 
 def test_all_files_name_one_version():
