@@ -34,7 +34,9 @@ TINY = {
     "attractors": {"acceleration": {"num": 3}, "transient": 20, "strobes": 8},
     "sweeps": {"amplitudes": COARSE, "on_plate": {"axes": {"acceleration": {"num": 3}}}},
     "estimates": {"phase": COARSE_PAIRS},
-    # Tables of the chart on where to run a conveyor, which the default target makes for every config.
+}
+# Tables of the chart on where to run a conveyor, which the default target makes for every config.
+TINY_MACHINE = {
     "operating": {"acceleration": {"num": 4}, "resolution": 0.2, "starts": 16},
     "transit": {"acceleration": {"num": 2}, "longest": 2.0, "parts": 8},
     "drift": {"effort": 0.06},
@@ -66,7 +68,7 @@ def config_file(name: str) -> Path:
 
 def small_config() -> dict:
     """The project's config with FIGURES and their tables only, on coarse axes."""
-    config = merged(read_config(), TINY)
+    config = merged(read_config(), TINY | (TINY_MACHINE if "machine" in FLOORS else {}))
     config["figures"] = {figure: config["figures"][figure] for figure in FIGURES}
     config["companion"]["maps"] = ["amplitudes"]
     config["uncertainty"]["claims"] = []

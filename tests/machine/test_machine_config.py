@@ -7,6 +7,11 @@ from conveyor_pipeline.config import problems
 
 # An overlay, and a part of the expected message.
 WRONG = [
+    (
+        {"operating": {"acceleration": ["0.5 mm peak to peak"]}, "model": {"frequency": 100}},
+        "0.5 mm zero to peak are 197.4 m/s², and 0.5 mm peak to peak are 98.7 m/s²",
+    ),
+    ({"parts": {"friction": "2 mm"}}, "parts.friction = '2 mm' has a unit of another dimension; give %, or no unit"),
     ({"calibration": {"ranges": {"angle": [0.1, 16]}}}, "16° are 0.2793 rad"),
     ({"calibration": {"ranges": {"friction": [0.4, 0.1]}}}, "is reversed"),
     ({"transit": {"parts": True}}, "transit.parts = True should be a number"),

@@ -42,16 +42,11 @@ WRONG = [
         "at model.frequency = 100 Hz, 0.25 mm zero to peak are 98.7 m/s², and 0.25 mm peak to peak are 49.35 m/s²",
     ),
     (
-        {"operating": {"acceleration": ["0.5 mm peak to peak"]}, "model": {"frequency": 100}},
-        "0.5 mm zero to peak are 197.4 m/s², and 0.5 mm peak to peak are 98.7 m/s²",
-    ),
-    (
         {"model": {"acceleration": "0.25 mm", "frequency": "5 kg"}},
         "model.acceleration = '0.25 mm' has a unit of another dimension; give m/s², mm/s² or g",
     ),
     ({"model": {"mass": "0,8 g"}}, "write decimal points, not commas"),
     ({"model": {"mass": "heavy"}}, "model.mass = 'heavy' should be a number, or one with a unit: kg, g or mg"),
-    ({"parts": {"friction": "2 mm"}}, "parts.friction = '2 mm' has a unit of another dimension; give %, or no unit"),
     (
         {"sweeps": {"mine": {"axes": {"stiffness": ["5e5 N/m"]}}}},
         "sweeps.mine.axes.stiffness[0] = '5e5 N/m' is not in the unit of the contact law; give it in N/m^1.5",
