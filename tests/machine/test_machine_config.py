@@ -3,7 +3,7 @@
 import pytest
 from project import ROOT, merged, read_config
 
-from conveyor_pipeline.config import problems
+from conveyor_pipeline.config import canonical, problems
 
 # An overlay, and a part of the expected message.
 WRONG = [
@@ -53,3 +53,10 @@ WRONG = [
 def test_an_error_names_key_and_remedy(overlay, message):
     lines = problems(merged(read_config(), overlay))
     assert any(message in line for line in lines), lines
+
+
+def test_numbers_of_the_machine_may_have_a_unit():
+    transit = {"acceleration": {"start": "1 g", "stop": "9 g"}, "length": "50 cm"}
+    own = canonical(merged(read_config(), {"prefix": "mine", "parts": {"friction": "10 %"}, "transit": transit}))
+    transit = {"acceleration": {"start": 9.80665, "stop": 88.25985}, "length": 0.5}
+    assert own == canonical(merged(read_config(), {"prefix": "mine", "parts": {"friction": 0.1}, "transit": transit}))

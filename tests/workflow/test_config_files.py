@@ -255,7 +255,7 @@ def test_braces_in_the_name_of_the_working_directory(tmp_path):
     folder = tmp_path / "b{x}"
     folder.mkdir()
     copy_project(folder)
-    run = call_snakemake("--dry-run", "figures/fig22.pdf", "results/drive.md", folder=folder)
+    run = call_snakemake("--dry-run", "figures/fig22.pdf", "docs/claims.md", folder=folder)
     assert run.returncode == 0, run.stdout
     run = call_snakemake("--dry-run", "figures/fig22.pdf", "--snakefile", str(folder / "Snakefile"), folder=tmp_path)
     assert run.returncode != 0

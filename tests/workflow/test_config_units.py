@@ -96,15 +96,11 @@ def test_every_number_of_an_overlay_may_have_a_unit():
     overlay = {
         "prefix": "mine",
         "model": {"angle": "20 deg", "mass": "0.8 g", "frequency": "1500 rpm", "z0": "0.3 mm", "friction": "15 %"},
-        "parts": {"friction": "10 %"},
-        "transit": {"acceleration": {"start": "1 g", "stop": "9 g"}, "length": "50 cm"},
         "sweeps": {"mine": {"axes": {"z0": ["0 mm", "conveyor"], "stiffness": ["5e5 N/m^1.5"]}}},
     }
     plain = {
         "prefix": "mine",
         "model": {"angle": math.radians(20.0), "mass": 0.8e-3, "frequency": 25.0, "z0": 0.3e-3, "friction": 0.15},
-        "parts": {"friction": 0.1},
-        "transit": {"acceleration": {"start": 9.80665, "stop": 88.25985}, "length": 0.5},
         "sweeps": {"mine": {"axes": {"z0": [0.0, "conveyor"], "stiffness": [5e5]}}},
     }
     assert problems(merged(CONFIG, overlay)) == []
