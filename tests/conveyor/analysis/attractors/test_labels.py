@@ -1,7 +1,10 @@
 """States of motion and attractors: known labels, which do not depend on how runs are divided."""
 
+import time
+
 import numpy as np
 import pytest
+from tqdm import tqdm
 
 from conveyor import Conveyor, Start, ensemble, initial_states, parameter_table, start_at
 from conveyor.analysis import stroboscopic_map
@@ -234,3 +237,18 @@ def test_a_trajectory_that_begins_in_a_trapping_region_is_followed_for_no_whole_
     assert found.state.tolist() == wanted.state.tolist()
     assert found.period.tolist() == wanted.period.tolist()
     assert wanted.cycles.min() > 0
+
+
+def test_the_bar_moves_evenly_where_the_last_trajectories_take_longest():
+    class Steps(tqdm):
+        def update(self, n=1):
+            steps.append((time.process_time() - begin, n))
+
+    steps, begin = [], 0.0
+    accelerations = np.repeat([30.0, 80.0], 300)
+    labels.classify(parameter_table(Conveyor(), acceleration=accelerations, z0=3e-4), cycles=200)  # compiles
+    begin = time.process_time()
+    with Steps(disable=True) as shown:
+        labels.classify(parameter_table(Conveyor(), acceleration=accelerations, z0=3e-4), cycles=6000, progress=shown)
+    times, rows = np.transpose(steps)
+    assert 0.25 < np.interp(300, np.cumsum(rows), times) / times[-1] < 0.75
