@@ -37,6 +37,7 @@ for k, damping in enumerate(DAMPINGS):
 
     # The branch of the jumping orbit, and its first period doubling over damping and amplitude.
     orbit = cv.periodic_orbit(one, JUMPING, period=range(1, 9))
+    assert orbit is not None, "the part does not settle to a periodic motion"
     branch = cv.continue_orbit(orbit, "acceleration", (10.0, 60.0))
     kinds = [point.kind for point in branch.bifurcations]
     fold, doubling = (branch.bifurcations[kinds.index(kind)] for kind in ("fold", "period_doubling"))
