@@ -11,6 +11,8 @@ from conveyor.methods import fixed_step, fixed_step_lanes
 from conveyor.solver import contact_lanes
 from conveyor.solver.model import pack
 
+pytestmark = pytest.mark.long  # all code is compiled once more
+
 # Of x86, with the number of float64 in a register.
 REGISTERS = {"zmm": 8, "ymm": 4, "xmm": 2}
 

@@ -152,7 +152,7 @@ def test_sine_and_cosine_of_zero_are_exact():
     assert values.tolist() == [[0.0, 1.0]]
 
 
-@pytest.mark.parametrize("orders", [(), (2, 5)])
+@pytest.mark.parametrize("orders", [(), pytest.param((2, 5), marks=pytest.mark.long)])
 @pytest.mark.parametrize("method", range(len(fixed_step.METHODS)))
 def test_a_group_agrees_with_single_runs(method, orders):
     """For one, two, four, eight and any other number of trajectories side by side."""

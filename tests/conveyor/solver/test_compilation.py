@@ -110,6 +110,7 @@ def test_the_notice_comes_once_and_not_from_the_cache(run):
     assert float(later.stdout.split()[-1]) == 0.0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("code", [ROOT_OF_LINE, FIXED_STEPS], ids=["others", "entry"])
 def test_of_processes_that_start_together_one_compiles(run, code):
     with ThreadPoolExecutor() as threads:
@@ -119,6 +120,7 @@ def test_of_processes_that_start_together_one_compiles(run, code):
     assert seconds[:2] == [0.0, 0.0] < seconds[2:]
 
 
+@pytest.mark.long
 def test_a_process_does_not_wait_for_ever(run, tmp_path):
     """The process that compiles may have been suspended."""
     (tmp_path / "conveyor").mkdir()
@@ -127,6 +129,7 @@ def test_a_process_does_not_wait_for_ever(run, tmp_path):
     assert [float(number) > 0.0 for number in found.stdout.split()] == [True, True]
 
 
+@pytest.mark.long
 def test_an_entry_does_not_wait_for_another(run, tmp_path):
     (tmp_path / "conveyor").mkdir()
     with FileLock(tmp_path / LOCK_OF_EVENTS):
@@ -134,6 +137,7 @@ def test_an_entry_does_not_wait_for_another(run, tmp_path):
     assert float(found.stdout) > 0.0
 
 
+@pytest.mark.long
 def test_a_killed_process_leaves_no_lock(run, tmp_path):
     (tmp_path / "conveyor").mkdir()
     command = [sys.executable, "-c", HOLD_LOCK, str(tmp_path / LOCK)]
@@ -143,6 +147,7 @@ def test_a_killed_process_leaves_no_lock(run, tmp_path):
     assert float(run(ROOT_OF_LINE).stdout.split()[0]) == 0.5
 
 
+@pytest.mark.long
 def test_a_plate_without_harmonics_compiles_no_code_of_harmonics(run):
     of_harmonics = {"add_harmonic", "multiple", "numbers_of"}
     pure, harmonic = (set(line.split()) for line in run(FUNCTIONS_BY_PLATE).stdout.splitlines())

@@ -74,7 +74,13 @@ def random_contacts(count, seed, harmonics=0):
     return rows, constants, w, v, rng.uniform(0.0, 2.0 * np.pi, count)
 
 
-@pytest.mark.parametrize(("lanes", "harmonics"), [(1, None), (4, None), (8, None), (1, 2), (8, 2)])
+LONG = pytest.mark.long
+
+
+@pytest.mark.parametrize(
+    ("lanes", "harmonics"),
+    [(1, None), (4, None), (8, None), pytest.param(1, 2, marks=LONG), pytest.param(8, 2, marks=LONG)],
+)
 def test_steps_have_the_bits_of_single_ones(lanes, harmonics):
     _, constants, w, v, phase = random_contacts(400, lanes, harmonics or 0)
     series = contact.workspace()

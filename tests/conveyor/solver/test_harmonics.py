@@ -265,6 +265,7 @@ def test_transit_agrees_with_a_run():
     assert run.sample(np.array([arrival]))["x"][0] == pytest.approx(0.03, rel=2e-3)
 
 
+@pytest.mark.long
 def test_linearisation_agrees_with_differences():
     conveyor = Conveyor(acceleration=40.0, harmonics=TWO)
     orbit = periodic_orbit(conveyor, Start(z=3e-4))
@@ -283,6 +284,7 @@ def test_linearisation_agrees_with_differences():
     assert np.allclose(difference, matrices[0][:, 0], rtol=1e-4)
 
 
+@pytest.mark.long
 def test_labels_and_exponents():
     conveyor = Conveyor(harmonics=TWO)
     found = classify(parameter_table(conveyor, acceleration=[20.0, 40.0, 90.0], z0=3e-4))
@@ -294,6 +296,7 @@ def test_labels_and_exponents():
     assert np.allclose(exponents.lambda_1 + exponents.lambda_2, total, rtol=1e-6)
 
 
+@pytest.mark.long
 def test_known_attractors_give_the_labels_of_single_searches():
     rows = parameter_table(Conveyor(acceleration=40.0, harmonics=TWO), z0=np.linspace(0.0, 5e-4, 40))
     attractors = find_attractors(rows[:1], cycles=300)

@@ -98,6 +98,7 @@ def test_a_right_model_is_explained_and_its_friction_is_found(found):
     assert np.all(found["fit"]["explained"])
 
 
+@pytest.mark.long
 def test_a_single_parameter_can_be_searched():
     stated = {name: value for name, value in CONTACT.items() if name != "friction"}
     ranges = {"friction": SETTINGS["ranges"]["friction"]}
@@ -140,6 +141,7 @@ def test_searches_that_find_other_values_disagree():
             assert width == pytest.approx(2.0 * 1.96 * 0.01 * (high - low)[0], rel=0.15)
 
 
+@pytest.mark.long
 def test_velocities_that_no_parameters_give_are_not_explained():
     # How many measurements do not fit depends on the best parameters, which differ from search to search.
     wrong = calibrate(measured(factor=-1.0), SETTINGS, threads=2)["fit"]
@@ -147,6 +149,7 @@ def test_velocities_that_no_parameters_give_are_not_explained():
     assert not np.all(wrong["fits"])
 
 
+@pytest.mark.long
 def test_an_inclination_that_was_not_stated_rejects_the_model(found):
     """The search finds no inclination where there is none."""
     assert not np.any(found["alternatives"]["preferred"])

@@ -39,6 +39,7 @@ def test_bits_of_random_initial_conditions():
     assert {convergence.PERIODIC, convergence.NOT_CONVERGED} <= set(found.outcomes)
 
 
+@pytest.mark.long
 def test_bits_of_plates_with_harmonics():
     """Conveyors with two harmonics of different orders; some contacts are not for lanes."""
     rng = np.random.default_rng(5)
@@ -168,6 +169,7 @@ print(*compiled)
 """
 
 
+@pytest.mark.long
 def test_a_process_finds_what_another_one_compiled():
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     for _ in range(2):

@@ -245,10 +245,10 @@ def test_the_bar_moves_evenly_where_the_last_trajectories_take_longest():
             steps.append((time.process_time() - begin, n))
 
     steps, begin = [], 0.0
-    accelerations = np.repeat([30.0, 80.0], 300)
+    accelerations = np.repeat([30.0, 80.0], 150)
     labels.classify(parameter_table(Conveyor(), acceleration=accelerations, z0=3e-4), cycles=200)  # compiles
     begin = time.process_time()
     with Steps(disable=True) as shown:
         labels.classify(parameter_table(Conveyor(), acceleration=accelerations, z0=3e-4), cycles=6000, progress=shown)
     times, rows = np.transpose(steps)
-    assert 0.25 < np.interp(300, np.cumsum(rows), times) / times[-1] < 0.75
+    assert 0.25 < np.interp(150, np.cumsum(rows), times) / times[-1] < 0.75
