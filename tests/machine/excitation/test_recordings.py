@@ -366,6 +366,8 @@ def test_columns_with_a_minus_are_right():
         (1000.0, {}, "set excitation.unit: mm/s²"),
         (1000.0 / STANDARD_GRAVITY, {"unit": "g"}, "set excitation.unit: mg"),
         (1.0, {"unit": "g"}, "set excitation.unit: m/s²"),
+        (0.1 / STANDARD_GRAVITY, {}, "one g is 0.1"),  # volts of a sensor with 0.1 V for each g
+        (0.33 / STANDARD_GRAVITY, {"unit": "g"}, "one g is 0.33"),
     ],
 )
 def test_means_that_are_not_gravity_are_refused_with_the_unit_or_factor(factor, settings, message):

@@ -386,7 +386,7 @@ def frequency_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
     acceleration = float(np.hypot(*signal.sizes))
     displacement = acceleration / (2.0 * math.pi * frequency) ** 2
-    has_unit = size_fault(gravity_of(signal.fitted, 0.0), signal.recording.unit) is None
+    has_unit = size_fault(gravity_of(signal.fitted, 0.0), acceleration, signal.recording.unit) is None
     if has_unit and displacement > MOST_DISPLACEMENT:
         # The unit in which the frequency would be one of a conveyor.
         scales = {name: scale / TIME_UNITS[signal.recording.time_unit] for name, scale in TIME_UNITS.items()}
@@ -419,7 +419,7 @@ def unit_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     unit, acceleration = signal.recording.unit, float(np.hypot(*signal.sizes))
     gravity = gravity_of(signal.fitted, signal.settings.get("inclination", 0.0))
     shown = f"vibrates with {acceleration / UNITS[unit]:.4g} {unit}, which is {acceleration:.4g} m/s²"
-    if fault := size_fault(gravity, unit):
+    if fault := size_fault(gravity, acceleration, unit):
         yield None, fault
     elif acceleration > MOST_ACCELERATION:
         yield None, f"{shown}; no conveyor does: state another excitation.unit ({', '.join(UNITS)})"

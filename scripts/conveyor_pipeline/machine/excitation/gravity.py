@@ -26,6 +26,7 @@ SIZE = 0.1  # relative deviation within which the mean counts as gravity; sensor
 NEAR = 0.05  # relative deviation within which another unit explains the mean
 MOST_LEAN = 0.04  # rad, within which the direction of gravity fits; an offset of 0.04 g turns it by this much
 LEAST_DEGREES = 0.5  # a smaller number is no mount in degrees, because nobody sees such a small angle
+MOST_RATIO = 10.0  # of amplitude and gravity on a conveyor; for a sensor that removes gravity, offsets are smaller
 SURE = 3.0  # standard errors that the noise may add to a deviation
 # What else the unit of a file may be, in m/s².
 OTHER_UNITS = {
@@ -66,15 +67,20 @@ def gravity_of(fitted: Fit, inclination: float) -> Gravity:
     return Gravity(size >= ABSENT, size, lean, noise)
 
 
-def size_fault(gravity: Gravity, unit: str) -> str | None:
-    """What is wrong with the unit if the mean is not gravity."""
+def size_fault(gravity: Gravity, acceleration: float, unit: str) -> str | None:
+    """What is wrong with the unit if the mean is not gravity.
+
+    acceleration : amplitude of the vibration, m/s²
+    """
     if abs(gravity.size - 1.0) < SIZE + SURE * gravity.noise:
         return None
     mean = gravity.size * STANDARD_GRAVITY / UNITS[unit]
     deviations = {name: abs(mean * scale / STANDARD_GRAVITY - 1.0) for name, scale in OTHER_UNITS.items()}
     nearest = min(deviations, key=lambda name: deviations[name])
-    # A small mean is an offset, unless size and direction are those of gravity in a unit that makes them larger.
-    if not gravity.present and not (nearest in UNITS and deviations[nearest] < NEAR and abs(gravity.lean) < MOST_LEAN):
+    # A small mean is an offset, unless its direction is that of gravity, and so is its size: in a unit that makes it
+    # larger, or compared with the vibration, as in a voltage.
+    is_scaled = (nearest in UNITS and deviations[nearest] < NEAR) or acceleration < MOST_RATIO * mean * UNITS[unit]
+    if not gravity.present and not (is_scaled and abs(gravity.lean) < MOST_LEAN):
         return None
     shown = f"has a mean of {mean:.4g} {unit}, {gravity.size:.3g} times gravity"
     factor = f"one g is {mean:.4g} in the file, so values times {STANDARD_GRAVITY / mean:.4g} would be m/s²"
