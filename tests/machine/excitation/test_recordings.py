@@ -173,6 +173,16 @@ def test_samples_that_are_lost_at_random_are_refused_with_their_number(count, no
         assert count == 1 and "follows a jump of the phase" in fault
 
 
+@pytest.mark.parametrize("share", [0.01, 0.03])
+@pytest.mark.parametrize("rate", [600.0, 800.0])
+def test_many_samples_that_are_lost_at_random_are_no_unsteady_drive(share, rate):
+    """The phase turns so often that the fundamental nearly vanishes in some pieces."""
+    time, readings = sampled(rate)
+    kept = np.random.default_rng(int(rate)).random(len(time)) > share
+    fault = fault_of(text_of(time[: kept.sum()], readings[:, kept]))
+    assert re.search(r"samples are lost|the times are not those of the samples", fault), fault
+
+
 @pytest.mark.parametrize(
     ("cycles", "place", "noise"), [(0.97, 0.5, 0.5), (1.02, 0.3, 0.3), (2.5, 0.8, 1.0), (0.1, 0.6, 1.0)]
 )

@@ -355,22 +355,41 @@ def ambiguity_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             return
 
 
+def size_deviation(signal: Signal, pieces: int) -> float:
+    """Relative standard deviation of the effective value from piece to piece, whatever the phase does."""
+    fitted = signal.fitted
+    vibration = signal.recording.acceleration[:, : len(signal.time)] - fitted.offsets[:, None]
+    sizes = np.array([math.sqrt((piece**2).mean()) for piece in np.array_split(vibration, pieces, axis=1)])
+    return float(sizes.std(ddof=1) / sizes.mean())
+
+
+def is_unsteady(steady: Mapping[str, float]) -> bool:
+    """Whether the fundamental varies from piece to piece, by `steadiness`."""
+    return steady["deviation"] > max(UNSTEADY, 3.0 * steady["deviation_of_noise"])
+
+
+def phase_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """A phase that wanders, so far that the fundamental gets smaller in some pieces, though the vibration does not."""
+    steady = steadiness(signal.time, signal.fitted)
+    turns = is_unsteady(steady) and size_deviation(signal, steady["pieces"]) < 0.5 * steady["deviation"]
+    if turns or steady["wander"] > MOST_WANDER:
+        yield (
+            None,
+            f"has a phase that wanders by {steady['wander']:.2g} rad (standard deviation) against "
+            f"{signal.fitted.frequency:.4g} Hz: samples are lost, or the drive does not run steadily; record without "
+            "losses, or with the time of each sample, and keep a piece in which the drive runs steadily",
+        )
+
+
 def steadiness_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """An amplitude that changes, or a second vibration."""
     frequency, other = signal.fitted.frequency, signal.other
     steady = steadiness(signal.time, signal.fitted)
-    if (deviation := steady["deviation"]) > max(UNSTEADY, 3.0 * steady["deviation_of_noise"]):
+    if is_unsteady(steady):
         yield (
             None,
-            f"is not steady: its amplitude at {frequency:.4g} Hz varies by {100.0 * deviation:.2g} % (standard "
-            "deviation); keep a piece in which the drive runs steadily, and record one drive alone",
-        )
-    elif (wander := steady["wander"]) > MOST_WANDER:
-        yield (
-            None,
-            f"has a phase that wanders by {wander:.2g} rad (standard deviation) against {frequency:.4g} Hz: samples "
-            "are lost, or the drive does not run steadily; record without losses, or with the time of each sample, and "
-            "keep a piece in which the drive runs steadily",
+            f"is not steady: its amplitude at {frequency:.4g} Hz varies by {100.0 * steady['deviation']:.2g} % "
+            "(standard deviation); keep a piece in which the drive runs steadily, and record one drive alone",
         )
     elif other:
         yield (
@@ -460,6 +479,7 @@ OF_SIGNAL = (
     (count_faults,),
     (sensor_faults,),
     (frequency_faults, sampling_faults),
+    (phase_faults,),
     (saturation_faults,),
     (mixture_faults,),
     (unit_faults, steadiness_faults),
