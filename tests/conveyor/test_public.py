@@ -58,7 +58,8 @@ FUNCTIONS = {
     "sample_runs": {"parameters": TABLE, "times": [[0.0, 0.01]] * 2, "columns": ["x"], "method": "event"}
     | {"vx0": 0.0}
     | {"tolerance": 1e-8, "step": 1e-5, "reuse": True, "threads": 1, "chunk": 10},
-    "classify": {"parameters": TABLE, "cycles": 10, "other_tolerance": 1e-9} | {"tolerance": 1e-8, "threads": 1},
+    "classify": {"parameters": TABLE, "cycles": 10, "exponents": True, "other_tolerance": 1e-9}
+    | {"tolerance": 1e-8, "threads": 1},
     "attractors": {"conveyor": Conveyor(), "samples": 4, "cycles": 10, "tolerance": 1e-8, "threads": 1},
     "continue_bifurcation": {"parameter": "damping", "limits": (0.29, 0.31)},
     "bifurcation_diagram": {"parameters": TABLE, "transient": 2, "strobes": 2, "tolerance": 1e-8},

@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 
-from ...arguments import MOST_CYCLES, check_count, check_threads, check_tolerance, check_type
+from ...arguments import MOST_CYCLES, check_count, check_flag, check_threads, check_tolerance, check_type
 from ...columns import Columns
 from ...packing import as_table, check_rows
 from ...parallel import for_each_chunk
@@ -50,6 +50,7 @@ def classify(
     *,
     cycles: int = CYCLES,
     attractors: AttractorTable | Attractors = NO_ATTRACTORS,
+    exponents: bool = True,
     other_tolerance: float | None = None,
     tolerance: float = DEFAULT_TOLERANCE,
     threads: int = 1,
@@ -63,6 +64,7 @@ def classify(
     cycles : excitation cycles after which the search for a period ends, up to 1e6
     attractors : known attractors of the conveyors, which save time: from search.find_attractors, or, of one conveyor,
         from `attractors`
+    exponents : whether Lyapunov exponents label trajectories that have not converged; otherwise they stay undecided
     other_tolerance : a second tolerance, with which each label is found once more
     tolerance : of the contact steps
     threads, progress : as in `sweep`
@@ -89,10 +91,10 @@ def classify(
     elif not all(np.array_equal(one, attractors.conveyor) for one in distinct_rows(parameters)[0]):
         raise ValueError("attractors are those of another conveyor; give an AttractorTable for several")
     table = attractors.table if isinstance(attractors, Attractors) else attractors
-    n = len(parameters)
+    exponents, n = check_flag("exponents", exponents), len(parameters)
     if other_tolerance is not None:
         both = tolerance, check_tolerance(other_tolerance, "other_tolerance")
-        given = {"cycles": cycles, "attractors": attractors, "threads": threads}
+        given = {"cycles": cycles, "attractors": attractors, "exponents": exponents, "threads": threads}
         with progress_bar(total=2 * n, label=progress) as shown:
             rows = as_table(parameters).reshape(shape)
             found, again = (classify(rows, **given, tolerance=one, progress=shown) for one in both)
@@ -116,7 +118,7 @@ def classify(
     codes[outcomes == PERIODIC] = regular[outcomes == PERIODIC]
     codes[outcomes == IN_CHAOTIC_SET] = CHAOS
     still = np.flatnonzero(outcomes == NOT_CONVERGED)
-    if len(still):
+    if exponents and len(still):
         signs = lyapunov.signs(parameters[still], trajectories.states[still], tolerance=tolerance, threads=threads)
         codes[still[signs > 0]] = CHAOS
         longer = still[signs < 0]

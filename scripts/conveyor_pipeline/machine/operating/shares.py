@@ -60,7 +60,7 @@ def labels_of(parameters: np.ndarray, settings: dict, *, threads: int = 1, progr
     """The labels of the initial conditions of some amplitudes, shape (m starts,).
 
     Where one of the first TRIED of an amplitude ends undecided, motions settle too slowly to be known in any case, so
-    that the others end undecided after BRIEF cycles.
+    that the others are followed for BRIEF cycles only, and end undecided if they have not converged.
     """
     options = {"threads": threads, "progress": progress}
     known = shared_attractors(parameters, settings["starts"], settings, **options)
@@ -69,9 +69,10 @@ def labels_of(parameters: np.ndarray, settings: dict, *, threads: int = 1, progr
     first = start < TRIED
     tried = classify(parameters[first], **options)
     slow = np.isin(amplitude, amplitude[first][tried.state == "undecided"])
-    rows, cycles = [~first & ~slow, ~first & slow], [settings["settling"], min(BRIEF, settings["settling"])]
-    later = [classify(parameters[some], **options | {"cycles": most}) for some, most in zip(rows, cycles, strict=True)]
-    return join([tried, *later], [np.flatnonzero(some) for some in (first, *rows)])
+    brief = options | {"cycles": min(BRIEF, settings["settling"]), "exponents": False}
+    others, parts = [~first & ~slow, ~first & slow], [tried]
+    parts += [classify(parameters[rows], **how) for rows, how in zip(others, (options, brief), strict=True)]
+    return join(parts, [np.flatnonzero(rows) for rows in (first, *others)])
 
 
 def groups(labels: Columns, conveyor: np.ndarray) -> np.ndarray:

@@ -252,3 +252,11 @@ def test_the_bar_moves_evenly_where_the_last_trajectories_take_longest():
         labels.classify(parameter_table(Conveyor(), acceleration=accelerations, z0=3e-4), cycles=6000, progress=shown)
     times, rows = np.transpose(steps)
     assert 0.25 < np.interp(150, np.cumsum(rows), times) / times[-1] < 0.75
+
+
+def test_without_exponents_what_has_not_converged_is_undecided():
+    chaotic = parameter_table(Conveyor(acceleration=80.0), z0=3e-4)
+    assert labels.classify(chaotic, cycles=400).state == "chaos"
+    found = labels.classify(chaotic, cycles=400, exponents=False)
+    assert found.state == "undecided"
+    assert np.isnan(found.longest_flight)
