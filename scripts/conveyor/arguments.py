@@ -76,7 +76,8 @@ def check_array(
     if not least <= array.size <= MOST_VALUES:
         raise ValueError(f"{name} must have {least} to {MOST_VALUES:g} values, got the shape {array.shape}")
     with np.errstate(over="ignore"):
-        numbers = np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+        # Numba would compile the solver once more for an array that is read-only, such as a pandas column.
+        numbers = np.require(array, np.float64, ["C", "W"])
     # Compare in float64: in float32 a large bound becomes infinite.
     outside = ~((numbers >= low) & (numbers <= high))
     if may_be_nan:

@@ -248,7 +248,9 @@ def transits(
     """
     lengths = arguments.check_array("lengths", lengths, np.finfo(np.float64).tiny, np.inf, "m")
     longest = arguments.check_array("longest", longest, np.finfo(np.float64).tiny, arguments.LONGEST, "s")
-    if lengths.ndim != 1 or lengths.shape != longest.shape:
+    if lengths.ndim != 1:
+        raise ValueError(f"lengths must have the shape (k,), got {lengths.shape}")
+    if longest.shape != lengths.shape:
         raise ValueError(f"longest has the shape {longest.shape}, but lengths has the shape {lengths.shape}")
     for name, values in (("lengths", lengths), ("longest", longest)):
         if (np.diff(values) <= 0.0).any():

@@ -9,6 +9,7 @@ from . import arguments
 from .analysis import stroboscopic_map
 from .analysis.attractors import identity, labels, sampling, search
 from .analysis.attractors.identity import Attractor, Attractors
+from .columns import Columns
 from .ensemble import sweep
 from .packing import as_rows, as_table, check_row, parameter_table
 from .parameters import DEFAULT_TOLERANCE, LAST
@@ -79,24 +80,45 @@ def attractors_of_row(row: np.ndarray, samples: int, options: dict[str, Any]) ->
     found += [Attractor("chaos", 0, None, np.full((1, 2), np.nan)) for _ in table.chaotic.low]
     known = Attractors(found, conveyor, table)
     labelled = labels.classify(as_table(starts), attractors=known, **options)
-    for k in np.flatnonzero(labelled.attractor == identity.UNKNOWN):
-        state, (one,) = np.array([labelled.delta[k], labelled.v[k]]), identity.identify(known, labelled.select([k]))
-        if one == identity.UNKNOWN and labelled.period[k]:
-            found.append(identity.orbit_attractor(conveyor, labelled.state[k], int(labelled.period[k]), state))
-        elif one == identity.UNKNOWN:
-            found.append(Attractor(labelled.state[k], 0, None, state[None]))
-        one = len(found) - 1 if one == identity.UNKNOWN else one
-        labelled.attractor[k] = one
-    return known._replace(found=with_velocities(found, at_top, labelled, tolerance))
+    known, numbers = with_unknown(known, labelled)
+    known, numbers = without_transients(known, numbers)
+    return known._replace(found=with_velocities(known.found, at_top, labelled, numbers, tolerance))
+
+
+def with_unknown(known: Attractors, labelled: Columns) -> tuple[Attractors, np.ndarray]:
+    """The attractors and those that the labels of n trajectories add to them, and the number of each one's, (n,)."""
+    grown, numbers = known._replace(found=list(known.found)), labelled.attractor.copy()
+    for k in np.flatnonzero(numbers == identity.UNKNOWN):
+        label = labelled.select([k])
+        (numbers[k],) = identity.identify(grown, label)
+        if numbers[k] == identity.UNKNOWN:
+            state, period = np.column_stack([label.delta, label.v]), int(label.period[0])
+            orbit = identity.orbit_attractor(known.conveyor, label.state[0], period, state[0]) if period else None
+            grown.found.append(orbit or Attractor(label.state[0], 0, None, state))
+            numbers[k] = len(grown.found) - 1
+    return grown, numbers
+
+
+def without_transients(known: Attractors, numbers: np.ndarray) -> tuple[Attractors, np.ndarray]:
+    """The attractors without the chaotic sets in which no sample ends, and the new number of each sample's."""
+    kept, orbits = np.ones(len(known.found), dtype=np.bool_), len(known.table.orbits.periods)
+    sets = slice(orbits, orbits + len(known.table.chaotic.low))
+    kept[sets] = np.isin(np.arange(len(kept)), numbers)[sets]
+    chaotic = type(known.table.chaotic)(*(column[kept[sets]] for column in known.table.chaotic))
+    found = [one for one, is_kept in zip(known.found, kept, strict=True) if is_kept]
+    return Attractors(found, known.conveyor, known.table._replace(chaotic=chaotic)), (np.cumsum(kept) - 1)[numbers]
 
 
 def with_velocities(
-    found: list[Attractor], row: np.ndarray, labelled: labels.Columns, tolerance: float
+    found: list[Attractor], row: np.ndarray, labelled: Columns, numbers: np.ndarray, tolerance: float
 ) -> list[Attractor]:
-    """The attractors with shares of the samples, mean velocities, and a state for those that have none."""
+    """The attractors with shares of the samples, mean velocities, and a state for those that have none.
+
+    numbers : of the attractor of each label, shape (n,)
+    """
     states = []
     for k, one in enumerate(found):
-        own = np.flatnonzero(labelled.attractor == k)[:1]
+        own = np.flatnonzero(numbers == k)[:1]
         state = one.strobes[0]
         if not one.period and len(own):
             state = np.array([labelled.delta[own[0]], labelled.v[own[0]]])
@@ -109,7 +131,7 @@ def with_velocities(
         one._replace(
             strobes=one.strobes if one.period else state[None],
             mean_velocity=float(velocity),
-            share=float(np.mean(labelled.attractor == k)),
+            share=float(np.mean(numbers == k)),
         )
         for k, (one, state, velocity) in enumerate(zip(found, states, runs.mean_velocity, strict=True))
     ]
@@ -122,8 +144,8 @@ class Basin(NamedTuple):
     vz: np.ndarray  # m/s, shape (m,)
     state: np.ndarray  # str, shape (n, m): "first", "second", "chaos" or "undecided"
     period: np.ndarray  # int64, shape (n, m), excitation cycles; 0 for none
-    attractor: np.ndarray  # int64, shape (n, m), number among `attractors`; -1 for one that its samples do not show
-    attractors: Attractors
+    attractor: np.ndarray  # int64, shape (n, m), number among `attractors`
+    attractors: Attractors  # that samples or the grid lead to; shares are those of the samples
 
     def __repr__(self) -> str:
         return f"Basin({len(self.z)} heights × {len(self.vz)} velocities)\n{self.attractors!r}"
@@ -141,7 +163,8 @@ def basin(
 ) -> Basin:
     """The basins of attraction on a grid of initial conditions.
 
-    The attractors of the conveyor are found first. Each trajectory is followed until it must end in one of them.
+    The attractors of the conveyor are found first. Each trajectory is followed until it must end in one of them, or in
+    another one, which is added to them.
 
     Parameters
     ----------
@@ -174,7 +197,11 @@ def basin(
         parameters[name] = column
     with progress_bar(total=1 + SAMPLES + starts[..., 0].size, label=progress) as shown:
         options = {"cycles": cycles, "tolerance": tolerance, "threads": threads, "progress": shown}
-        found = attractors_of_row(row, SAMPLES, options)
-        labelled = labels.classify(parameters, attractors=found, **options)
-    about = labelled.state, labelled.period, labelled.attractor
-    return Basin(heights.astype(np.float64), speeds.astype(np.float64), *about, found)
+        sampled = attractors_of_row(row, SAMPLES, options)
+        labelled = labels.classify(parameters.reshape(-1), attractors=sampled, **options)
+    known, numbers = with_unknown(sampled, labelled)
+    count, at_top = len(sampled.found), stroboscopic_map.begin_at_top(sampled.conveyor)
+    added = with_velocities(known.found[count:], at_top, labelled, numbers - count, options["tolerance"])
+    known = known._replace(found=sampled.found + [one._replace(share=0.0) for one in added])
+    about = (column.reshape(parameters.shape) for column in (labelled.state, labelled.period, numbers))
+    return Basin(heights.astype(np.float64), speeds.astype(np.float64), *about, known)

@@ -114,12 +114,14 @@ def conveyor_and_start(parameters: Conveyor | np.ndarray) -> tuple[Conveyor, Sta
 
 
 def copy_table(parameters: object) -> np.ndarray:
-    """A copy of a table or a row, or the row of a Conveyor; TypeError for anything else."""
+    """A copy of a table or a row, or the row of a Conveyor; TypeError for anything else, ValueError as `check_rows`."""
     if isinstance(parameters, Conveyor):
         return as_table(pack(parameters, AT_REST))
     if (getattr(getattr(parameters, "dtype", None), "names", None) or ())[: len(PARAMETERS)] != PARAMETERS:
         raise TypeError(f"parameters must be a table from parameter_table or a Conveyor, got {parameters!r}")
-    return np.array(parameters)
+    rows, shape = check_rows(parameters)
+    # A row of a table keeps the memory of the table, even in np.array(row).
+    return as_table(rows.copy()).reshape(shape)
 
 
 def check_column(

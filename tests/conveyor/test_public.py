@@ -18,7 +18,7 @@ import pandas as pd
 import pytest
 
 import conveyor
-from conveyor import Conveyor, Start, columns, parameter_table, simulation
+from conveyor import Conveyor, Start, columns, parameter_table, replace_parameters, restart, simulation
 from conveyor.analysis.attractors import search
 from conveyor.analysis.chaos import lyapunov
 from conveyor.parameters import DEFAULT_TOLERANCE, PARAMETERS, RANGES
@@ -625,3 +625,41 @@ def test_pip_installs_the_library_alone():
     patterns = tomllib.loads(project.read_text())["tool"]["setuptools"]["packages"]["find"]["include"]
     names = ("conveyor", "conveyor.solver", "conveyor_pipeline", "conveyor_pipeline.common")
     assert [name for name in names if any(fnmatchcase(name, pattern) for pattern in patterns)] == list(names[:2])
+
+
+@pytest.mark.parametrize(
+    "change", [lambda row: replace_parameters(row, friction=0.5), lambda row: restart(row, 5e-4, 0.0, 0.013)]
+)
+def test_a_changed_row_leaves_its_table_as_it_was(change):
+    table = parameter_table(Conveyor(), z0=[0.0, 1e-4])
+    before = table.copy()
+    change(table[1])
+    assert (table == before).all()
+
+
+@pytest.mark.parametrize(
+    "change", [lambda rows: replace_parameters(rows, friction=0.5), lambda rows: restart(rows, 5e-4, 0.0, 0.013)]
+)
+def test_a_change_of_a_wrong_table_names_row_and_column(change):
+    table = parameter_table(Conveyor(), z0=[0.0, 1e-4])
+    table["damping"][1] = -1.0
+    with pytest.raises(ValueError, match=r"parameters\[1\]: damping = -1"):
+        change(table)
+
+
+def test_a_chaotic_transient_in_which_no_sample_ends_is_no_attractor():
+    values = {"acceleration": 135.7, "angle": 0.393, "frequency": 19.53, "stiffness": 1.2e6, "damping": 0.01625}
+    found = conveyor.attractors(Conveyor(**values, mass=0.0054, exponent=2.0, tension="clip"), samples=32, cycles=2000)
+    assert all(one.share > 0.0 and np.isfinite(one.mean_velocity) for one in found.found)
+
+
+def test_a_basin_names_attractors_beyond_the_samples():
+    """From some millimetres, parts reach motions of three and more cycles that no sample reaches."""
+    one = Conveyor(acceleration=37.3634, damping=0.0595)
+    basin = conveyor.basin(one, np.linspace(0.5e-3, 4e-3, 10), [-0.3, 0.0, 0.3], cycles=4000)
+    assert basin.attractor.min() >= 0
+    added = [attractor for attractor in basin.attractors.found if attractor.share == 0.0]
+    assert added
+    for k, attractor in enumerate(basin.attractors.found):
+        assert set(basin.period[basin.attractor == k]) <= {attractor.period}
+        assert np.isfinite(attractor.mean_velocity)
