@@ -17,10 +17,11 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from .parameters import RANGES, TENSION_MODES, check_number, normal_gravity
+from .parameters import RANGES, TENSION_MODES, UNITS, check_number, normal_gravity
 from .solver.law import spring_and_damper
 
 TOLERANCE = 1e-12  # of a step, in the units above
+WEAKEST = 1e-18  # D of a damper that changes no digit; the zero of its force is lost in rounding
 NEGLIGIBLE = 1e-6  # a smaller restitution of a part that creeps out of a clipped contact counts as none
 SLOWEST, FASTEST = 1e-6, RANGES["vz0"][1]  # m/s
 CONTACT = ("stiffness", "damping", "mass", "exponent", "gravity", "inclination")
@@ -31,7 +32,8 @@ def restitution(conveyor: Any, speed: float) -> float:
 
     Parameters
     ----------
-    conveyor : a Conveyor, or any object with its stiffness, damping, mass, exponent, gravity, inclination and tension
+    conveyor : a Conveyor, a row of a table, or any object with its stiffness, damping, mass, exponent, gravity,
+        inclination and tension
     speed : normal speed of the impact, 1e-6 to 100 m/s
 
     Returns
@@ -91,13 +93,21 @@ def damping_of(restitution: float, speed: float, conveyor: Any) -> float:
 
 
 def contact_of(conveyor: Any) -> dict[str, Any]:
-    """The parameters of a contact; TypeError for an object that lacks one."""
+    """The checked parameters of a contact; TypeError for an object that lacks one, ValueError outside its range."""
+    if hasattr(conveyor, "__array_interface__"):  # a row of a table; its owner has loaded NumPy already
+        from .packing import AT_REST, conveyor_of
+
+        conveyor, _ = conveyor_of(conveyor, AT_REST)
     missing = [name for name in (*CONTACT, "tension") if not hasattr(conveyor, name)]
     if missing:
         raise TypeError(f"conveyor must be a Conveyor, got {conveyor!r} without {', '.join(missing)}")
-    if conveyor.tension not in TENSION_MODES:
+    if not isinstance(conveyor.tension, str) or conveyor.tension not in TENSION_MODES:
         raise ValueError(f"conveyor.tension = {conveyor.tension!r} is not one of {', '.join(TENSION_MODES)}")
-    return {name: getattr(conveyor, name) for name in (*CONTACT, "tension")}
+    numbers = {name: getattr(conveyor, name) for name in CONTACT}
+    checked = {
+        name: check_number(f"conveyor.{name}", value, *RANGES[name], UNITS[name]) for name, value in numbers.items()
+    }
+    return checked | {"tension": conveyor.tension}
 
 
 def groups(model: dict[str, Any], speed: object) -> tuple[float, float, float]:
@@ -128,6 +138,7 @@ def root(function: Callable[[float], float], low: float, high: float) -> float:
 def rebound(exponent: float, damping: float, gravity: float, clip: bool) -> float:
     """The coefficient of restitution from p, D and G; `clip` says that the force cannot pull."""
     closed, power = True, 2.0 * exponent
+    clip = clip and damping > WEAKEST
     # A part at rest presses deeper than a slow impact does, and falls faster by this penetration.
     rest = gravity ** (1.0 / exponent)
     scale_w, scale_v = 1.0 + math.sqrt(rest), 1.0 + math.sqrt(2.0 * gravity * rest)
@@ -181,14 +192,17 @@ def rebound(exponent: float, damping: float, gravity: float, clip: bool) -> floa
             length *= max(0.2, 0.9 * (TOLERANCE / error) ** 0.2)
             continue
         taken, length = length, length * min(5.0, 0.9 * (TOLERANCE / max(error, 1e-30)) ** 0.2)
-        pressure = force(new_w, new_v)
-        if clip and new_w > 0.0 and damping > 0.0 and (pressure < 0.0) == closed:
+        gap_opens = new_w <= 0.0
+        if gap_opens:
+            taken = root(lambda part: step(part)[0], 1e-9 * taken if w == 0.0 else 0.0, taken)
+            new_w, new_v, _ = step(taken)
+        if clip and (force(new_w, new_v) < 0.0) == closed:
             # The force passes zero, now or at the beginning of the step.
             if (force(w, v) < 0.0) != closed:
                 w, v, _ = step(root(lambda part: force(*step(part)[:2]), 0.0, taken))
             closed = not closed
-        elif new_w <= 0.0:
-            return -step(root(lambda part: step(part)[0], 1e-9 * taken if w == 0.0 else 0.0, taken))[1]
+        elif gap_opens:
+            return -new_v
         else:
             w, v = new_w, new_v
         if is_over(w, v):

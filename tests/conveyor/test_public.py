@@ -664,3 +664,10 @@ def test_a_basin_names_attractors_beyond_the_samples():
     for k, attractor in enumerate(basin.attractors.found):
         assert set(basin.period[basin.attractor == k]) <= {attractor.period}
         assert np.isfinite(attractor.mean_velocity)
+
+
+def test_motions_that_approach_an_orbit_slowly_are_one_attractor():
+    values = {"acceleration": 9.351942795591594, "angle": 0.48281215795047877, "frequency": 242.20536511314174}
+    values |= {"stiffness": 439.9583807216725, "damping": 0.39842982519650866, "mass": 0.043934191030875334}
+    (one,) = conveyor.attractors(Conveyor(**values, exponent=2.0), samples=32, cycles=4000).found
+    assert (one.state, one.period, one.share, one.orbit.stable) == ("first", 1, 1.0, True)
