@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from conveyor import Conveyor, Start, damping_of, restitution, simulate
+from conveyor import Conveyor, Start, damping_of, parameter_table, restitution, simulate
 from conveyor.parameters import TENSION_MODES
 
 RANDOM = np.random.default_rng(7)
@@ -93,6 +93,42 @@ def test_hooke_contact_almost_without_gravity(ratio):
         assert restitution(conveyor, 100.0) == pytest.approx(value, abs=1e-9)
 
 
+def clipped_hooke_contact(damping: float, stiffness: float, mass: float, gravity: float, speed: float) -> float:
+    """Restitution where the force k δ + d δ̇ ends at its first zero, from the closed form in extended precision."""
+    damping, stiffness, mass, gravity, speed = map(np.longdouble, (damping, stiffness, mass, gravity, speed))
+    decay, rest = damping / (2 * mass), gravity * mass / stiffness
+    turn = np.sqrt(stiffness / mass - decay**2)
+    sine = (speed - decay * rest) / turn
+
+    def state(time):
+        shape, slope = sine * np.sin(turn * time), sine * np.cos(turn * time)
+        shape, slope = shape - rest * np.cos(turn * time), slope + rest * np.sin(turn * time)
+        return rest + np.exp(-decay * time) * shape, np.exp(-decay * time) * (turn * slope - decay * shape)
+
+    low, high = 1.5 / turn, 4.7 / turn  # between the deepest points of the first and of the second swing
+    while low < (middle := (low + high) / 2) < high:
+        depth, rate = state(middle)
+        low, high = (middle, high) if stiffness * depth + damping * rate > 0 else (low, middle)
+    depth, rate = state(low)
+    return float(np.sqrt(rate**2 - 2 * gravity * depth) / speed)
+
+
+@pytest.mark.parametrize("speed", [0.01280565426622192, 0.3])
+def test_a_weak_damper_does_not_pull_just_before_the_gap_opens(speed):
+    """The zero of the force and the opening of the gap often fall into the same step."""
+    for damping in np.append(0.0030088136791861743, np.geomspace(2e-4, 0.3, 60)):
+        conveyor = Conveyor(damping=damping, exponent=1.0, tension="clip")
+        numbers = (conveyor.stiffness, conveyor.mass, conveyor.gravity)
+        expected = clipped_hooke_contact(damping, *numbers, speed)
+        assert restitution(conveyor, speed) == pytest.approx(expected, abs=1e-11)
+        assert damping_of(expected, speed, conveyor) == pytest.approx(damping, rel=1e-11 / (1.0 - expected))
+
+
+@pytest.mark.parametrize("damping", [0.0, 5e-324, 1e-30, 1e-17, 1e-12])
+def test_a_clipped_contact_almost_without_damping_keeps_the_speed(damping):
+    assert restitution(Conveyor(damping=damping, tension="clip"), 0.1) == pytest.approx(1.0, abs=1e-11)
+
+
 def test_a_contact_without_damping_keeps_the_speed():
     for exponent in (1.0, 1.5, 2.2):
         assert restitution(Conveyor(damping=0.0, exponent=exponent), 0.1) == pytest.approx(1.0, abs=1e-11)
@@ -139,6 +175,38 @@ def test_impossible_arguments_are_refused(wanted, speed, message):
 def test_a_restitution_that_no_damping_gives_is_refused():
     with pytest.raises(ValueError, match=r"restitution = 1e-05 needs more than the largest damping, 1e\+06 N s/m"):
         damping_of(1e-5, 0.1, Conveyor(mass=1e6, stiffness=1e15))
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [(name, math.nan) for name in ("stiffness", "damping", "mass", "exponent", "gravity", "inclination")]
+    + [("damping", math.inf), ("damping", -0.1), ("stiffness", 0.0), ("exponent", 0.0), ("mass", "1 g")]
+    + [("tension", "pull"), ("tension", np.array(["clip", "allow"]))],
+)
+def test_impossible_parameters_of_any_object_are_named(name, value):
+    conveyor = SimpleNamespace(**{name: getattr(Conveyor(), name) for name in Conveyor.__slots__} | {name: value})
+    for call in (lambda: restitution(conveyor, 0.3), lambda: damping_of(0.5, 0.3, conveyor)):
+        with pytest.raises(ValueError, match=rf"conveyor\.{name} = "):
+            call()
+
+
+def test_a_frame_is_no_conveyor():
+    frame = pytest.importorskip("pandas").DataFrame(parameter_table(Conveyor(), mass=[1e-3, 2e-3]))
+    with pytest.raises(ValueError, match=r"conveyor\.(stiffness|tension) = "):
+        restitution(frame, 0.3)
+
+
+def test_a_row_of_a_table_is_a_conveyor():
+    conveyor = Conveyor(mass=2e-3, tension="clip", harmonics=[{"order": 2, "normal": 0.1}])
+    table = parameter_table(conveyor, acceleration=[10.0, 20.0])
+    for row in (table[0], table[:1], parameter_table(conveyor)):
+        assert restitution(row, 0.3) == restitution(conveyor, 0.3)
+        assert damping_of(0.5, 0.3, row) == damping_of(0.5, 0.3, conveyor)
+    with pytest.raises(ValueError, match=r"conveyor must be one row of a table, got the shape \(2,\)"):
+        restitution(table, 0.3)
+    table["mass"] = math.nan
+    with pytest.raises(ValueError, match="conveyor: parameters: mass = nan is outside"):
+        restitution(table[0], 0.3)
 
 
 def test_a_conveyor_is_needed():
