@@ -93,9 +93,15 @@ def with_unknown(known: Attractors, labelled: Columns) -> tuple[Attractors, np.n
         (numbers[k],) = identity.identify(grown, label)
         if numbers[k] == identity.UNKNOWN:
             state, period = np.column_stack([label.delta, label.v]), int(label.period[0])
-            orbit = identity.orbit_attractor(known.conveyor, label.state[0], period, state[0]) if period else None
-            grown.found.append(orbit or Attractor(label.state[0], 0, None, state))
-            numbers[k] = len(grown.found) - 1
+            new = Attractor(label.state[0], 0, None, state)
+            if period:
+                new = identity.orbit_attractor(known.conveyor, label.state[0], period, state[0])
+                delta, v = new.strobes[:1].T
+                # Where a motion approaches its orbit slowly, only the orbit tells that it is known.
+                (numbers[k],) = identity.identify(grown, Columns({**label, "delta": delta, "v": v}))
+            if numbers[k] == identity.UNKNOWN:
+                grown.found.append(new)
+                numbers[k] = len(grown.found) - 1
     return grown, numbers
 
 

@@ -57,10 +57,18 @@ class Attractors(NamedTuple):
 
 
 def orbit_attractor(row: np.ndarray, label: str, period: int, state: np.ndarray) -> Attractor:
-    """The attractor of a periodic motion from a state (δ in m, v in m/s) close to it at the beginning of a cycle."""
+    """The attractor of a periodic motion from a state (δ in m, v in m/s) close to it at the beginning of a cycle.
+
+    A motion that approaches its orbit slowly repeats itself although it is still far away: its steps sum up to the
+    distance that is left.
+    """
     row = stroboscopic_map.begin_at_top(row)
     orbit = orbit_near(row, state, period)
-    if orbit is None or not orbit.stable or distance(row, orbit.state, state) > CLOSE:
+    if orbit is not None and orbit.stable:
+        _, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, np.array(state), period)
+        ahead = 2.0 * distance(row, strobes[-1], np.array(state)) / (1.0 - abs(orbit.multipliers[0]))
+        orbit = orbit if distance(row, orbit.state, state) < max(CLOSE, ahead) else None
+    else:
         orbit = None
     start = np.array(state if orbit is None else orbit.state)
     _, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, start.copy(), period)
