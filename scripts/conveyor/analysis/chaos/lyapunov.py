@@ -122,24 +122,27 @@ def lyapunov_spectrum(
         states = stroboscopic_map.initial_states(parameters, tolerance)
     else:
         states = arguments.check_states("states", states, (len(parameters), 2), may_be_nan=True)
-    stretches = np.full((len(parameters), blocks * cycles, 2), np.nan)
-    contact_times = np.full((len(parameters), blocks * cycles), np.nan)
+    values, errors = np.empty((2, len(parameters), 2))
+    contact_times = np.empty(len(parameters))
     codes = np.zeros(len(parameters), dtype=np.int64)
     harmonics = plate.count_harmonics(parameters)
 
     def work(begin, end):
         for i in range(begin, end):
             tangent, discarded = np.eye(2), (np.empty((transient, 2)), np.empty(transient))
-            for logs, contacts in (discarded, (stretches[i], contact_times[i])):
+            # The cycles of one row at a time: for many rows they would take gigabytes.
+            kept = np.full((blocks * cycles, 2), np.nan), np.full(blocks * cycles, np.nan)
+            for logs, contacts in (discarded, kept):
                 for first in range(0, len(logs), AT_ONCE):
                     if codes[i] == OK:
                         own = logs[first : first + AT_ONCE], contacts[first : first + AT_ONCE]
                         given = parameters[i], states[i], tolerance, harmonics
                         codes[i] = fill_stretches(*given, tangent, *own)
+            values[i], errors[i] = stretching.exponents(kept[0], blocks)
+            contact_times[i] = kept[1].mean()
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
     period = 1.0 / parameters[:, FREQUENCY]
-    values, errors = stretching.exponents(stretches, blocks)
     # Where damping is so strong that a perturbation underflows within a cycle, no exponent is known.
     codes[(codes == OK) & ~np.isfinite(values).all(axis=1)] = NOT_FINITE
     values[codes != OK] = np.nan
@@ -147,7 +150,7 @@ def lyapunov_spectrum(
     order = np.argsort(-values, axis=1, kind="stable")
     values, errors = (np.take_along_axis(numbers / period[:, None], order, axis=1) for numbers in (values, errors))
     # The durations of the pieces of a cycle may add up to slightly more than the period.
-    contact_fraction = np.minimum(contact_times.mean(axis=1) / period, 1.0)
+    contact_fraction = np.minimum(contact_times / period, 1.0)
     columns = {"lambda_1": values[:, 0], "lambda_2": values[:, 1], "stderr": errors[:, 0]}
     columns |= {"contact_fraction": contact_fraction, "status": np.array(STATUS, dtype=object)[codes]}
     return Columns({name: column.reshape(shape) for name, column in columns.items()})

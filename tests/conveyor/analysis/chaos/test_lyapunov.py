@@ -1,5 +1,7 @@
 """Lyapunov exponents: the trace identity, an independent pair of trajectories, known limits, and riding parts."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -143,6 +145,17 @@ def test_standard_error_shrinks_with_the_run():
 def test_exponents_do_not_depend_on_threads():
     one, two = (lyapunov.lyapunov_spectrum(points(*PAIRS), cycles=10, threads=threads) for threads in (1, 2))
     assert all((one[name] == two[name]).all() for name in one)
+
+
+def test_memory_does_not_grow_with_the_cycles_of_all_rows():
+    """Motions that fail at once, so that the test is fast."""
+    rows = np.tile(points((40.0, 0.0)), (500, 1))
+    tracemalloc.start()
+    found = lyapunov.lyapunov_spectrum(rows, np.full((500, 2), np.nan), transient=0, cycles=200, blocks=20)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert "ok" not in found.status
+    assert peak < 2e6  # bytes; all cycles of all rows are 48 MB
 
 
 def test_settings_are_checked():
