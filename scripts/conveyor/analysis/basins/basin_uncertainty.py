@@ -23,7 +23,7 @@ class Uncertainty(NamedTuple):
     """The uncertainty exponent of a map."""
 
     value: float  # α; NaN where labels differ at fewer than three distances
-    error: float  # standard error of the slope, in which the size of the map is not included
+    error: float  # standard error of the slope if the points scatter independently, see uncertainty_exponent
     distances: np.ndarray  # points along an axis, shape (k,)
     uncertain: np.ndarray  # share of pairs at each distance with different labels, mean over the axes, shape (k,)
 
@@ -52,16 +52,21 @@ def check_map(labels: ArrayLike, least: int) -> np.ndarray:
 
 
 def shares_in_boxes(numbers: np.ndarray, size: int) -> np.ndarray:
-    """The shares of the labels in all whole boxes of a size, shape (boxes, labels)."""
-    whole = numbers[tuple(slice(length - length % size) for length in numbers.shape)]
-    split = whole.reshape([part for length in whole.shape for part in (length // size, size)])
-    order = [*range(0, split.ndim, 2), *range(1, split.ndim, 2)]
-    boxes = split.transpose(order).reshape(-1, size**numbers.ndim)
+    """The shares of the labels in as few boxes of a size as cover the map, shape (boxes, labels)."""
+    # Evenly spaced first points: multiples of the size, if it divides the axis.
+    corners = [np.linspace(0, length - size, -(-length // size)).round().astype(int) for length in numbers.shape]
+    windows = np.lib.stride_tricks.sliding_window_view(numbers, (size,) * numbers.ndim)
+    boxes = windows[np.ix_(*corners)].reshape(-1, size**numbers.ndim)
     return np.stack([(boxes == label).mean(axis=1) for label in range(int(numbers.max()) + 1)], axis=1)
 
 
 def uncertainty_exponent(labels: ArrayLike) -> Uncertainty:
     """The uncertainty exponent of a map of labels, as from `basin`, over distances of 1 to 15 points.
+
+    The error covers only the scatter of the shares around a power law, as if each distance had pairs of its own. It
+    does not cover the number of points in the map or the choice of distances. On a self-similar boundary such as a
+    Cantor set, the share also oscillates with the logarithm of the distance, so that the exponent may be off by several
+    errors. Maps with different numbers of points show how far.
 
     labels : words or whole numbers on a grid of one, two or more axes, with at least 30 points along each
 
@@ -83,6 +88,9 @@ def uncertainty_exponent(labels: ArrayLike) -> Uncertainty:
 
 def basin_entropy(labels: ArrayLike, size: int = 20) -> BasinEntropy:
     """The basin entropy of a map of labels in boxes with `size` points along an edge.
+
+    If the size divides each axis, the boxes are those of Attractors.jl, which refuses other sizes. Otherwise, boxes of
+    the same size overlap as little as possible and cover the whole map.
 
     Examples
     --------

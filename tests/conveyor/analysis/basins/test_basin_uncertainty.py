@@ -45,6 +45,22 @@ def test_a_single_basin_has_no_boundary():
     assert math.isnan(found.boundary)
 
 
+def test_boxes_cover_maps_that_their_size_does_not_divide():
+    """Overlapping boxes of 20 points begin at 0, 20 and 39 of 59 points, and count all labels at the end of an axis."""
+    for axis in (0, 1):
+        labels = np.moveaxis(np.zeros((40, 59), dtype=int), 0, axis)
+        np.moveaxis(labels, axis, 0)[:, 49:] = 1
+        assert labels.sum() == 400
+        assert basin_entropy(labels, 20) == pytest.approx((math.log(2.0) / 3.0, math.log(2.0)))
+
+
+def test_boxes_that_divide_a_map_do_not_overlap():
+    labels = np.random.default_rng(2).integers(0, 3, (60, 40))
+    boxes = [labels[i : i + 20, j : j + 20] for i in (0, 20, 40) for j in (0, 20)]
+    shares = np.array([[np.mean(box == label) for label in range(3)] for box in boxes])
+    assert basin_entropy(labels, 20).value == pytest.approx(-(shares * np.log(shares)).sum(axis=1).mean(), rel=1e-12)
+
+
 def test_words_count_as_numbers_do():
     words = np.array([["first", "second"], ["second", "chaos"]], dtype=object).repeat(30, axis=0).repeat(30, axis=1)
     numbers = np.array([[0, 1], [1, 2]]).repeat(30, axis=0).repeat(30, axis=1)
