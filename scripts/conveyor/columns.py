@@ -5,17 +5,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .parameters import PARAMETERS
-from .parameters import UNITS as UNITS_OF_PARAMETERS
+from . import parameters
 
 if TYPE_CHECKING:
     import pandas
 
-    from .solver.model import Conveyor
-
 # The numbers of a harmonic in a table of parameters, see solver.plate.
 WAVES = ("order", "along_cosine", "along_sine", "normal_cosine", "normal_sine")
-UNITS = UNITS_OF_PARAMETERS | {
+UNITS = parameters.UNITS | {
     **{"mean_velocity": "m/s", "z_end": "m", "vz_end": "m/s", "x_end": "m", "vx_end": "m/s", "max_gap": "m"},
     **{"impacts": "1", "contact_fraction": "1", "impact_speed": "m/s", "peak_force": "N"},
     **{"x": "m", "vx": "m/s", "z": "m", "vz": "m/s", "contact_force": "N", "friction_force": "N"},
@@ -77,11 +74,11 @@ class Columns(Mapping[str, np.ndarray]):
         """The unit of each column; "1" for numbers without dimension, "" for words."""
         return {name: UNITS[name] for name in self}
 
-    def to_frame(self, parameters: "Conveyor | np.ndarray | None" = None) -> "pandas.DataFrame":
+    def to_frame(self, parameters: np.ndarray | None = None) -> "pandas.DataFrame":
         """A data frame with one row for each point, which can be written to a Parquet file.
 
-        parameters : the table, or the Conveyor, that the columns belong to; its columns come first, and those of the
-            result replace them. Harmonics of the plate are shares of its amplitudes, with cos kθ and -sin kθ
+        parameters : the table that the columns belong to; its columns come first, and those of the result replace them.
+            Harmonics of the plate are shares of its amplitudes, with cos kθ and -sin kθ
 
         ValueError if the columns have several shapes, or another one than the table.
 
@@ -100,13 +97,14 @@ class Columns(Mapping[str, np.ndarray]):
             ) from error
         columns = dict(self)
         if parameters is not None:
-            from .packing import as_rows, copy_table
-
-            rows = as_rows(copy_table(parameters))
-            waves = (rows.shape[-1] - len(PARAMETERS)) // len(WAVES)
-            names = [*PARAMETERS, *(f"harmonic_{k}_{name}" for k in range(1, waves + 1) for name in WAVES)]
-            columns = dict(zip(names, np.moveaxis(rows, -1, 0), strict=True)) | columns
+            names = getattr(parameters, "dtype", np.dtype(float)).names
+            if names is None:
+                raise TypeError(f"parameters must be a table from parameter_table, got {type(parameters).__name__}")
+            given = {name: parameters[name] for name in names if name != "harmonics"}
+            waves = np.moveaxis(parameters["harmonics"], -1, 0) if "harmonics" in names else ()
+            given |= {f"harmonic_{1 + k // len(WAVES)}_{WAVES[k % len(WAVES)]}": wave for k, wave in enumerate(waves)}
+            columns = given | columns
         if len({array.shape for array in columns.values()}) > 1:
-            shapes = f" and parameters {rows.shape[:-1]}" if parameters is not None else ""
+            shapes = f" and parameters {parameters.shape}" if parameters is not None else ""
             raise ValueError(f"{self!r}{shapes} have no common shape")
         return pandas.DataFrame({name: np.reshape(array, -1) for name, array in columns.items()})
