@@ -14,7 +14,6 @@ from .solver.model import (
     Conveyor as Conveyor,
     Harmonic as Harmonic,
     Start as Start,
-    plate_motion as plate_motion,
 )
 from .packing import (
     conveyor_and_start as conveyor_and_start,
@@ -27,7 +26,7 @@ from .materials import Material as Material, hertz_stiffness as hertz_stiffness,
 from .impact import damping_of as damping_of, restitution as restitution
 
 # Trajectories: one, or one for each row of a table
-from .simulation import Run as Run, simulate as simulate
+from .simulation import Run as Run, plate_motion as plate_motion, simulate as simulate
 from .ensemble import (
     restart as restart,
     sample_runs as sample_runs,

@@ -7,12 +7,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arguments import check_array, check_choice, check_flag, check_number, check_time, check_tolerance
+from .arguments import LONGEST, check_array, check_choice, check_flag, check_number, check_time, check_tolerance
 from .methods import fixed_step
-from .packing import AT_REST, conveyor_of
-from .parameters import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST
-from .solver import record, trajectory
-from .solver.model import Conveyor, Start, pack, plate_motion
+from .packing import AT_REST, check_row, conveyor_of
+from .parameters import DEFAULT_STEP, DEFAULT_TOLERANCE, LAST, PARAMETERS
+from .solver import plate, record, trajectory
+from .solver.model import ACCELERATION, ANGLE, FREQUENCY, PHASE_SHIFT, PSI0, Conveyor, Start, pack
 from .solver.record import SAMPLES, name_events
 from .solver.status import OK, STATUS
 
@@ -20,6 +20,25 @@ EVENT_STATE = ("x", "vx", "z", "vz", "impact_speed")
 METHODS = ("event", *fixed_step.METHODS)
 SMALLEST_SHARE = 1e-6  # of a run, over which a mean velocity is taken
 MOST_STEPS = 10**10  # fixed steps of a run, which take minutes
+
+
+def plate_motion(conveyor: Conveyor | np.ndarray, times: ArrayLike) -> dict[str, np.ndarray]:
+    """Position and velocity of the plate (Eqs. 3, 4, 10) at `times` (s): x, z in m; vx, vz in m/s; same shape.
+
+    conveyor : a Conveyor, or a row of a table
+
+    Examples
+    --------
+    >>> plate = plate_motion(Conveyor(acceleration=40.0), np.array([0.0, 0.01]))  # at its lowest and highest point
+    >>> (1e6 * plate["z"]).round(1).tolist()  # µm
+    [-84.3, 84.3]
+    """
+    row = check_row("conveyor", conveyor)
+    acceleration, angle, frequency, psi0, shift = row[[ACCELERATION, ANGLE, FREQUENCY, PSI0, PHASE_SHIFT]].tolist()
+    omega = 2.0 * math.pi * frequency
+    phase = omega * check_array("times", times, -LONGEST, LONGEST, "s", least=0) + psi0
+    a_x, a_z = acceleration * math.cos(angle), acceleration * math.sin(angle)
+    return plate.motion(a_x, a_z, omega, shift, row[len(PARAMETERS) :], phase)
 
 
 def mean_velocity(run, last: float = LAST) -> float:

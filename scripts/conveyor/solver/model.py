@@ -23,11 +23,9 @@ from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from ..arguments import LONGEST, check_array, check_choice, check_count, check_number, check_parameter, check_type
+from ..arguments import check_choice, check_count, check_number, check_parameter
 from ..parameters import HARMONIC, MOST_HARMONICS, PARAMETERS, TENSION_MODES
-from . import plate
 from .jit import compiled_inline
 
 ACCELERATION, ANGLE, FREQUENCY, PSI0, STIFFNESS, DAMPING, FRICTION, MASS = range(8)
@@ -187,21 +185,3 @@ def unpack(parameters: np.ndarray) -> tuple[Conveyor, Start]:
 def normal_gravity(parameters):
     """Gravity normal to the track, g cos α (m/s²), of a parameter vector."""
     return parameters[GRAVITY] * math.cos(parameters[INCLINATION])
-
-
-def plate_motion(conveyor: Conveyor, times: ArrayLike) -> dict[str, np.ndarray]:
-    """Position and velocity of the plate (Eqs. 3, 4, 10) at `times` (s): x, z in m; vx, vz in m/s; same shape.
-
-    Examples
-    --------
-    >>> plate = plate_motion(Conveyor(acceleration=40.0), np.array([0.0, 0.01]))  # at its lowest and highest point
-    >>> (1e6 * plate["z"]).round(1).tolist()  # µm
-    [-84.3, 84.3]
-    """
-    check_type("conveyor", conveyor, Conveyor)
-    omega = 2.0 * math.pi * conveyor.frequency
-    phase = omega * check_array("times", times, -LONGEST, LONGEST, "s", least=0) + conveyor.psi0
-    a_z = conveyor.acceleration * math.sin(conveyor.angle)
-    a_x = conveyor.acceleration * math.cos(conveyor.angle)
-    harmonics = pack(conveyor, Start())[len(PARAMETERS) :]
-    return plate.motion(a_x, a_z, omega, conveyor.phase_shift, harmonics, phase)

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start, simulate
+from conveyor import Conveyor, Start, plate_motion, simulate
 from conveyor.analysis import stroboscopic_map
 from conveyor.solver import contact, contact_law
-from conveyor.solver.model import TENSION_MODES, pack, plate_motion
+from conveyor.solver.model import TENSION_MODES, pack
 from conveyor.solver.status import OK
 
 CYCLES = 6

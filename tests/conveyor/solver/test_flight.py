@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start, parameter_table, simulate, sweep
+from conveyor import Conveyor, Start, parameter_table, plate_motion, simulate, sweep
 from conveyor.analysis.basins.first_impact import first_impacts
 from conveyor.analysis.bifurcations.bifurcation_diagram import bifurcation_diagram
 from conveyor.parameters import RANGES
 from conveyor.solver import contact, flight
-from conveyor.solver.model import pack, plate_motion
+from conveyor.solver.model import pack
 
 TURN = 2.0 * math.pi
 

@@ -306,6 +306,16 @@ def test_known_attractors_give_the_labels_of_single_searches():
     assert len(set(found.state)) == 2
 
 
+def test_a_row_of_a_table_moves_the_plate_as_its_conveyor_does():
+    conveyor = random_conveyor(np.random.default_rng(4), phase_shift=0.3, psi0=0.7)
+    table, times = parameter_table(conveyor, acceleration=[conveyor.acceleration, 20.0]), np.linspace(0.0, 0.1, 7)
+    for row in (table[0], table[:1], parameter_table(conveyor)):
+        moved, expected = plate_motion(row, times), plate_motion(conveyor, times)
+        assert all((moved[name] == expected[name]).all() for name in expected)
+    with pytest.raises(ValueError, match=r"conveyor must be one row of a table, got the shape \(2,\)"):
+        plate_motion(table, times)
+
+
 def test_throw_number_is_the_largest_downward_acceleration():
     conveyor = random_conveyor(np.random.default_rng(3), inclination=0.1)
     times = np.linspace(0.0, 1.0 / conveyor.frequency, 20_001)

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from reference import reference_states
 from scipy.integrate import simpson
 
-from conveyor import Conveyor, Start, conveyor_and_start, parameter_table, simulate, sweep
-from conveyor.solver.model import plate_motion
+from conveyor import Conveyor, Start, conveyor_and_start, parameter_table, plate_motion, simulate, sweep
 
 AT_REST = Conveyor(acceleration=0.0)
 FEEDER = Conveyor(acceleration=40.0, inclination=0.08, phase_shift=0.7, static_friction=0.2, psi0=0.3)

@@ -10,8 +10,7 @@ from reference import reference_mean_velocity
 from scipy.integrate import quad, simpson
 from scipy.linalg import expm
 
-from conveyor import Conveyor, Start, simulate
-from conveyor.solver.model import plate_motion
+from conveyor import Conveyor, Start, plate_motion, simulate
 from conveyor.solver.pieces import MAX_PIECES
 
 AT_REST = Conveyor(acceleration=0.0)

@@ -10,9 +10,9 @@ from hypothesis import HealthCheck, Phase, example, given, settings
 from hypothesis import strategies as st
 from random_conveyors import around_the_paper, deepest_allowed, tilted, whole_ranges
 
-from conveyor import Conveyor, Start, ensemble, simulate
+from conveyor import Conveyor, Start, ensemble, plate_motion, simulate
 from conveyor.parameters import RANGES, TENSION_MODES
-from conveyor.solver.model import FREQUENCY, pack, plate_motion, unpack
+from conveyor.solver.model import FREQUENCY, pack, unpack
 
 # A failing example is printed as it is found: shrinking runs that end with `contact too stiff` would take minutes.
 NO_SHRINKING = (Phase.explicit, Phase.reuse, Phase.generate)

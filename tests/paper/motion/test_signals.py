@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from conveyor import Conveyor, Start, simulate
-from conveyor.solver.model import plate_motion
+from conveyor import Conveyor, Start, plate_motion, simulate
 from conveyor_pipeline.common import fields, tables
 from conveyor_pipeline.paper.motion import signals, spectra
 
