@@ -178,8 +178,13 @@ def rebound(exponent: float, damping: float, gravity: float, clip: bool) -> floa
         square = w * w
         if 0.5 * v * v + square ** (exponent + 1.0) / (exponent + 1.0) <= gravity * square:
             return True
-        # Where δ^(p-1) < D²/4, δ̇/δ > -D/2 holds on: δ falls at most exponentially.
-        creeps = v <= 0.0 and square ** (exponent - 1.0) < 0.25 * damping**2 and -v < 0.5 * damping * square
+        # Where δ^(p-1) < D²/4, δ̇/δ > -D/2 holds on: δ falls at most exponentially. The speed at which a part creeps
+        # may be below the error of a step, which is as often positive.
+        creeps = (
+            v <= 10.0 * TOLERANCE * scale_v
+            and square ** (exponent - 1.0) < 0.25 * damping**2
+            and -v < 0.5 * damping * square
+        )
         return creeps and (not clip or max(-v, square**exponent / damping) < NEGLIGIBLE)
 
     w, v, length = 0.0, 1.0, 0.01 / (1.0 + math.sqrt(damping + gravity))

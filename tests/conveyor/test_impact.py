@@ -145,6 +145,12 @@ def test_a_part_on_a_strong_damper_stays(damping, tension):
     assert restitution(Conveyor(damping=damping, tension=tension), 0.3) == pytest.approx(0.0, abs=1e-6)
 
 
+def test_a_light_part_on_a_strong_damper_stays():
+    """It creeps more slowly than the error of a step, so that its speed may never become negative."""
+    conveyor = Conveyor(mass=1e-12, stiffness=1.7e3, damping=0.15, exponent=1.66, gravity=1e-3, tension="clip")
+    assert restitution(conveyor, 5.4) == 0.0
+
+
 @pytest.mark.parametrize("tension", TENSION_MODES)
 @pytest.mark.parametrize("wanted", [0.01, 0.3, 0.5, 0.99, 1.0])
 def test_damping_is_the_inverse_of_restitution(wanted, tension):
