@@ -114,10 +114,10 @@ def velocities(
         drawn = (points[begin:end] + shift[sets, of][:, None]) % 1.0
         height, speed, phase = np.moveaxis(low + (high - low) * drawn, -1, 0).reshape(3, -1)
         rows, times = (np.repeat(own[of], count, axis=0) for own in conditions)
-        rows = replace_parameters(rows, **{name: np.repeat(column[sets], count) for name, column in values.items()})
-        rows["static_friction"] = np.maximum(rows["friction"], settings["static_friction"])
         rows["psi0"] = np.where(np.isnan(rows["psi0"]), phase, rows["psi0"])
         rows["vz0"] = np.where(np.isnan(rows["vz0"]), speed, rows["vz0"])
+        rows = replace_parameters(rows, **{name: np.repeat(column[sets], count) for name, column in values.items()})
+        rows["static_friction"] = np.maximum(rows["friction"], settings["static_friction"])
         height += plate_heights(rows)
         rows["z0"] = np.where(np.isnan(rows["z0"]), height, rows["z0"])
         return mean_velocities(rows, times, threads, progress and f"{progress}{label}").reshape(-1, count)
