@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from . import arguments
 from .analysis import stroboscopic_map
 from .analysis.attractors import identity, labels, sampling, search
+from .analysis.attractors.attractor_table import ChaoticSets
 from .analysis.attractors.identity import Attractor, Attractors
 from .columns import Columns
 from .ensemble import sweep
@@ -110,7 +111,7 @@ def without_transients(known: Attractors, numbers: np.ndarray) -> tuple[Attracto
     kept, orbits = np.ones(len(known.found), dtype=np.bool_), len(known.table.orbits.periods)
     sets = slice(orbits, orbits + len(known.table.chaotic.low))
     kept[sets] = np.isin(np.arange(len(kept)), numbers)[sets]
-    chaotic = type(known.table.chaotic)(*(column[kept[sets]] for column in known.table.chaotic))
+    chaotic = ChaoticSets(*(column[kept[sets]] for column in known.table.chaotic))
     found = [one for one, is_kept in zip(known.found, kept, strict=True) if is_kept]
     return Attractors(found, known.conveyor, known.table._replace(chaotic=chaotic)), (np.cumsum(kept) - 1)[numbers]
 

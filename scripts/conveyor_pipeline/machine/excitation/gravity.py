@@ -26,7 +26,7 @@ SIZE = 0.1  # relative deviation within which the mean counts as gravity; sensor
 NEAR = 0.05  # relative deviation within which another unit explains the mean
 MOST_LEAN = 0.04  # rad, within which the direction of gravity fits; an offset of 0.04 g turns it by this much
 LEAST_DEGREES = 0.5  # a smaller number is no mount in degrees, because nobody sees such a small angle
-MOST_RATIO = 10.0  # of amplitude and gravity on a conveyor; for a sensor that removes gravity, offsets are smaller
+MOST_RATIO = 10.0  # of the amplitude to gravity on a conveyor; offsets of a sensor that removes gravity are smaller
 SURE = 3.0  # standard errors that the noise may add to a deviation
 # What else the unit of a file may be, in m/s².
 OTHER_UNITS = {
