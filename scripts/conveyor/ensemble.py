@@ -162,13 +162,14 @@ def sample_runs(
     def work(begin, end):
         part = slice(begin, end)
         if method != "event":
-            # Together, trajectories with equal times take less time.
-            distinct, number = np.unique(times[part], axis=0, return_inverse=True)
-            for k, own_times in enumerate(distinct):
-                own = begin + np.flatnonzero(number.ravel() == k)
-                found = fixed_step.sample(rows[own], own_times, step, method)
+            # Together, trajectories with equal times take less time. Of 200,000 times, np.unique would take a second.
+            alike = {}
+            for row in range(begin, end):
+                alike.setdefault(times[row].tobytes(), []).append(row)
+            for together in alike.values():
+                found = fixed_step.sample(rows[together], times[together[0]], step, method)
                 for name in columns:
-                    samples[name][own] = found[name]
+                    samples[name][together] = found[name]
             return
         motion, results = trajectory.integrate(
             rows[part],

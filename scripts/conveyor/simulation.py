@@ -167,7 +167,7 @@ def follow_by_events(
 
     They are the columns of `ensemble.sweep`, and those that only a Run has.
     """
-    times = np.column_stack([(1.0 - LAST) * durations, durations])
+    times = durations[:, None] * np.array([1.0 - LAST, 1.0])
     samples, results = trajectory.integrate(parameters, times, tolerance=tolerance, feeding=feeding, reuse=reuse)
     before, after = samples[:, 0], samples[:, 1]
     with np.errstate(invalid="ignore"):  # a quarter of the shortest duration is no number above 0

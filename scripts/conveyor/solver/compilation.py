@@ -15,8 +15,6 @@ import gc
 import os
 import sys
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cache
 
 from filelock import FileLock
@@ -76,7 +74,7 @@ def lock_of(process: int, entry: str) -> FileLock:
 class OneProcess(event.Listener):
     """Holds a lock from the first to the last of nested searches in the cache. A killed process releases it."""
 
-    threads = threading.local()
+    threads = threading.local()  # `entry` is the one that the thread calls
 
     def on_start(self, event: event.Event) -> None:
         depth = getattr(self.threads, "depth", 0)
@@ -92,16 +90,6 @@ class OneProcess(event.Listener):
         self.threads.depth -= 1
         if self.threads.depth == 0:
             self.threads.lock.release()
-
-
-@contextmanager
-def entered(entry: str) -> Iterator[None]:
-    """Meanwhile, this thread searches the cache under the lock of this entry."""
-    OneProcess.threads.entry = entry
-    try:
-        yield
-    finally:
-        OneProcess.threads.entry = OTHERS
 
 
 TIMER = event.TimingListener()

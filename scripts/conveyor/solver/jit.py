@@ -35,8 +35,11 @@ def compiled_entry(function):
 
     @functools.wraps(dispatcher, updated=())
     def entry(*arguments):
-        with compilation.entered(name):
+        compilation.OneProcess.threads.entry = name
+        try:
             return dispatcher(*arguments)
+        finally:
+            compilation.OneProcess.threads.entry = compilation.OTHERS
 
     return entry
 

@@ -80,7 +80,7 @@ def integrate(
     def stop():
         results[:, SAMPLED] = k  # a run whose samples have all been taken ends
 
-    cycles = (times[:, -1:] * parameters[:, FREQUENCY, None]).sum()
+    cycles = times[:, -1] @ parameters[:, FREQUENCY]
     call_interruptibly(run, stop, is_long=cycles > LONG)
     return samples, results
 
