@@ -174,6 +174,7 @@ def test_plates_of_a_group_have_harmonics_of_the_same_orders():
         follow(parameters)
 
 
+@pytest.mark.long
 def test_plates_that_differ_only_in_their_harmonics_are_not_alike():
     parameters = random_parameters(17, 100, orders=(2, 5))
     parameters[:, [FREQUENCY, PSI0, PHASE_SHIFT]] = parameters[0, [FREQUENCY, PSI0, PHASE_SHIFT]]

@@ -31,6 +31,7 @@ from conveyor.packing import plate_peaks
 from conveyor.solver import contact, plate
 from conveyor.solver.model import pack
 
+COMPILES = pytest.mark.long  # the solver has other code for plates with harmonics
 DURATION = 0.04  # s; later, chaos may have amplified rounding errors
 TWO = (Harmonic(2, 0.1, 1.0, 0.05, -2.0), Harmonic(3, 0.05, 0.3, 0.1, 0.4))
 
@@ -124,6 +125,7 @@ def by_dop853(conveyor: Conveyor, z: float, times: np.ndarray) -> np.ndarray:
     return found
 
 
+@COMPILES
 @pytest.mark.parametrize("seed", range(6))
 def test_dop853_agrees(seed):
     generator = np.random.default_rng(seed)
@@ -138,6 +140,7 @@ def test_dop853_agrees(seed):
         assert np.abs(sample[name] - expected[:, k]).max() < 1e-9 * largest[k]
 
 
+@COMPILES
 def test_runge_kutta_converges_to_a_part_that_rides():
     """With the orders of TWO, for which the steps are compiled in another test, too."""
     conveyor = Conveyor(acceleration=12.0, angle=0.2, psi0=2.0, inclination=0.05, phase_shift=0.7, harmonics=TWO)
@@ -153,6 +156,7 @@ def test_runge_kutta_converges_to_a_part_that_rides():
     assert errors[1] / errors[2] > 8.0 or errors[1] < 1e-13
 
 
+@COMPILES
 def test_energy_balance():
     """Without damping, the plate's work is the gain of the energies of motion, height and spring."""
     conveyor = Conveyor(acceleration=40.0, damping=0.0, harmonics=TWO)
@@ -182,6 +186,7 @@ def test_plate_moves_as_defined():
     assert plate_heights(parameter_table(conveyor, z0=[0.0]))[0] == pytest.approx(plate["z"][0], rel=1e-14)
 
 
+@COMPILES
 def test_harmonic_without_amplitude_changes_nothing():
     conveyor = Conveyor(acceleration=45.0), Conveyor(acceleration=45.0, harmonics=[{"order": 2}])
     plain, other = (simulate(one, Start(z=3e-4), duration=0.1, tolerance=1e-13) for one in conveyor)
@@ -190,6 +195,7 @@ def test_harmonic_without_amplitude_changes_nothing():
     assert other.max_gap == pytest.approx(plain.max_gap, rel=1e-12)
 
 
+@COMPILES
 def test_a_table_may_hold_plates_with_and_without_harmonics():
     """Plates of one table have the same number of harmonics; those of a pure plate have no amplitude."""
     pure, harmonic = Conveyor(acceleration=45.0), Conveyor(acceleration=45.0, harmonics=[{"order": 2, "normal": 0.1}])
@@ -208,6 +214,7 @@ def harmonics(draw):
     return [Harmonic(order, draw(share), draw(phase), draw(share), draw(phase)) for order in orders]
 
 
+@COMPILES
 @settings(max_examples=80, deadline=None)
 @given(
     waves=harmonics(),
@@ -237,6 +244,7 @@ def test_no_motion_fails(waves, acceleration, angle, exponent, tension, phase, z
     assert gap.min() > -3e-3
 
 
+@COMPILES
 def test_many_runs_agree_with_single_runs():
     conveyor, heights = Conveyor(acceleration=42.0, harmonics=TWO), [0.0, 2e-4, 4e-4]
     runs = sweep(parameter_table(conveyor, z0=heights), duration=0.2)
@@ -245,6 +253,7 @@ def test_many_runs_agree_with_single_runs():
         assert (one.z_end, one.mean_velocity()) == (end, velocity)
 
 
+@COMPILES
 def test_fixed_steps_approach_the_events():
     conveyor = Conveyor(acceleration=40.0, harmonics=TWO, phase_shift=0.3)
     exact = simulate(conveyor, Start(z=3e-4), duration=0.04, tolerance=1e-12)
@@ -257,6 +266,7 @@ def test_fixed_steps_approach_the_events():
         assert errors[2] < 0.5 * errors[0]
 
 
+@COMPILES
 def test_transit_agrees_with_a_run():
     conveyor = Conveyor(acceleration=60.0, harmonics=TWO)
     found = transits(parameter_table(conveyor, z0=[3e-4]), np.array([0.03]), np.array([3.0]), begin=0.1)
@@ -265,7 +275,7 @@ def test_transit_agrees_with_a_run():
     assert run.sample(np.array([arrival]))["x"][0] == pytest.approx(0.03, rel=2e-3)
 
 
-@pytest.mark.long
+@COMPILES
 def test_linearisation_agrees_with_differences():
     conveyor = Conveyor(acceleration=40.0, harmonics=TWO)
     orbit = periodic_orbit(conveyor, Start(z=3e-4))
@@ -284,7 +294,7 @@ def test_linearisation_agrees_with_differences():
     assert np.allclose(difference, matrices[0][:, 0], rtol=1e-4)
 
 
-@pytest.mark.long
+@COMPILES
 def test_labels_and_exponents():
     conveyor = Conveyor(harmonics=TWO)
     found = classify(parameter_table(conveyor, acceleration=[20.0, 40.0, 90.0], z0=3e-4))
@@ -296,7 +306,7 @@ def test_labels_and_exponents():
     assert np.allclose(exponents.lambda_1 + exponents.lambda_2, total, rtol=1e-6)
 
 
-@pytest.mark.long
+@COMPILES
 def test_known_attractors_give_the_labels_of_single_searches():
     rows = parameter_table(Conveyor(acceleration=40.0, harmonics=TWO), z0=np.linspace(0.0, 5e-4, 40))
     attractors = find_attractors(rows[:1], cycles=300)
