@@ -52,16 +52,15 @@ def test_attractors_are_searched_if_that_saves_time(count, settling, sets):
     assert (len(found.chaotic.low), len(found.orbits.periods)) == (sets, 0)
 
 
-@pytest.mark.parametrize("settling", [500, 1000])
-def test_a_search_ends_at_the_limit_and_says_so(settling):
+def test_a_search_ends_at_the_limit_and_says_so():
     """At 73 m/s², chaos is a transient of thousands of cycles."""
-    axes = {"psi0": {"start": 0.0, "stop": 6.0, "num": 20}, "z0": {"start": 0.0, "stop": 5e-4, "num": 20}}
-    settings = {"axes": axes, "settling": settling, "tolerance": 1e-6}
+    axes = {"psi0": {"start": 0.0, "stop": 6.0, "num": 20}, "z0": {"start": 0.0, "stop": 5e-4, "num": 10}}
+    settings = {"axes": axes, "settling": 500, "tolerance": 1e-6}
     starts = grid.product(axes, {"acceleration": 73.0})[1]
     found = labelling.label_entry(starts, settings)
     assert 0.5 < (found.period == 0).mean() < 1.0
     assert "undecided" in found.state
-    assert (found.cycles[found.state == "undecided"] >= settling).all()
+    assert (found.cycles[found.state == "undecided"] >= 500).all()
     # A part of the table, as a shard has it, and other threads.
-    part = labelling.label_entry(starts[150:250], settings, threads=2)
-    assert equal(part, found.select(slice(150, 250)))
+    part = labelling.label_entry(starts[75:125], settings, threads=2)
+    assert equal(part, found.select(slice(75, 125)))

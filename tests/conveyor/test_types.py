@@ -44,6 +44,7 @@ dimension: Dimension = box_dimension([[0.0, 1.0]])
 """
 
 
+@pytest.mark.long
 def test_mypy_accepts_a_program(tmp_path):
     pytest.importorskip("mypy", reason="a type checker, which the pipeline does not need")
     (tmp_path / "program.py").write_text(PROGRAM)

@@ -165,6 +165,7 @@ def test_braces_in_the_name_of_a_measured_file_or_its_folder_are_refused(project
     assert_refused(run, "a{x}/mine.csv' has braces, which Snakemake takes for a wildcard; rename the file or folder")
 
 
+@pytest.mark.long
 def test_columns_with_a_minus_reach_the_overlay_of_the_measured_drive(project):
     """The example's sensor upside down: both files give the same drive."""
     text = (ROOT / "config/examples/accelerometer.csv").read_text()

@@ -35,6 +35,7 @@ def code_of(page: str) -> list[str]:
     return re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
 
 
+@pytest.mark.long
 def test_the_study_runs(tmp_path, monkeypatch):
     """With fewer points along each axis than the script has."""
     monkeypatch.chdir(tmp_path)

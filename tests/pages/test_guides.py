@@ -98,6 +98,7 @@ def test_github_runs_the_same_script_on_all_versions_of_python():
     assert {f"Programming Language :: Python :: {version}" for version in versions} <= set(project["classifiers"])
 
 
+@pytest.mark.long
 def test_github_publishes_the_site_that_the_config_makes(tmp_path):
     """The commands of the release workflow, and the folder that it uploads."""
     actions = github_workflow("pages")
@@ -139,6 +140,7 @@ def test_the_other_snakefile_plans_the_same(built):
     assert stats[0] == stats[1]
 
 
+@pytest.mark.long
 def test_breakpoint_works_in_a_job(edited):
     """As the guide says: the job keeps the terminal of Snakemake."""
     project = edited(

@@ -69,6 +69,7 @@ def test_nested_values_of_the_command_line_reach_the_module(tmp_path):
     assert "model.damping = '-0.2' should be at least 0" in run.stdout
 
 
+@pytest.mark.long
 def test_a_report_of_a_module_with_a_prefix(tmp_path):
     """It moves the caption, but not the template, which lies in the working directory here."""
     (tmp_path / "conveyor").mkdir()
@@ -185,6 +186,7 @@ def repository(tmp_path_factory):
     return folder
 
 
+@pytest.mark.long
 def test_a_module_from_a_git_repository(tmp_path, repository):
     """Also by its other entry, workflow/Snakefile."""
     (tmp_path / "Snakefile").write_text(FROM_GIT.format(repository=repository, path="workflow/Snakefile"))

@@ -18,6 +18,7 @@ def shadowed(copied, tmp_path):
     return Project(copied.folder, environment={"PYTHONPATH": str(other.parents[1])}), other
 
 
+@pytest.mark.long
 def test_jobs_import_the_library_of_the_project(shadowed):
     """Not an installed one, as after `pip install .`; a change of the project's would then be hashed but not run."""
     project, _ = shadowed
@@ -63,6 +64,7 @@ def test_a_change_of_other_code_stops_no_job(late):
     assert run.returncode == 0, run.stdout
 
 
+@pytest.mark.long
 def test_figures_are_drawn_under_a_backend_that_is_not_installed(copied):
     """A terminal of Jupyter sets this variable; Matplotlib refuses this name, not any, if the package is missing."""
     backend = "module://matplotlib_inline.backend_inline"

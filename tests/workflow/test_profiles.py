@@ -49,6 +49,7 @@ def test_slurm_gets_the_jobs(edited, tmp_path):
     assert all("--cpus-per-task=1" in call for call in submitted)
 
 
+@pytest.mark.long
 def test_results_are_checked_by_the_interpreter_that_runs_snakemake(tmp_path, monkeypatch):
     """PATH has no Python."""
     (tmp_path / "tests/results").mkdir(parents=True)

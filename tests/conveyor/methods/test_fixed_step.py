@@ -356,3 +356,14 @@ def test_peaks_cover_the_last_part_of_a_run(method):
     (whole,), _, _ = fixed_step.follow(parameters[None], 2e-6, 250_000, method)  # no sample ends the count of peaks
     assert whole[IMPACT_SPEED] > 0.1 > 10.0 * late.impact_speed
     assert whole[PEAK_FORCE] > 10.0 * late.peak_force > 0.0
+
+
+def test_each_trajectory_is_sampled_at_its_own_times():
+    """Those with equal times are followed together."""
+    starts, times = [Start(1e-4), Start(2e-4), Start(3e-4)], np.array([[0.0, 0.01], [0.005, 0.01], [0.0, 0.01]])
+    table = np.array([pack(Conveyor(), start) for start in starts])
+    found = ensemble.sample_runs(table, times, columns=["z", "vx"], method="euler", step=1e-6, chunk=10**6)
+    for k, start in enumerate(starts):
+        alone = simulate(Conveyor(), start, duration=0.01, method="euler", step=1e-6).sample(times[k])
+        assert found.z[k].tolist() == alone["z"].tolist()
+        assert found.vx[k].tolist() == alone["vx"].tolist()

@@ -196,6 +196,7 @@ BOWL = {"frequency": 100.0, "angle": math.radians(20.0), "inclination": math.rad
 BOWL_CONTACT = {"friction": 0.36, "damping": 1.0, "stiffness": 1.1e6}
 
 
+@pytest.mark.long
 def test_a_trial_of_twenty_velocities_of_the_model_itself_gives_no_verdict(capsys):
     """Its search has not converged, and says only that, in the tables and on the page."""
     settings = settings_of(si_config(), "calibration/parameters")
