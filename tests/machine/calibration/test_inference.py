@@ -87,6 +87,7 @@ def found():
     return calibrate(measured(), INCLINED, threads=2)
 
 
+@pytest.mark.long
 def test_a_right_model_is_explained_and_its_friction_is_found(found):
     rows = {row["parameter"]: row for row in pd.DataFrame(found["parameters"]).to_dict("records")}
     friction = rows["friction"]
@@ -233,6 +234,7 @@ def test_results_do_not_depend_on_the_threads():
         np.testing.assert_array_equal(first, second)
 
 
+@pytest.mark.long
 def test_the_prediction_covers_the_measured_amplitudes_and_the_next_measurement_lies_near(found):
     samples, fit = (pd.DataFrame(found[name]) for name in ("samples", "fit"))
     tables = prediction.predict(samples, fit, SETTINGS, threads=2)

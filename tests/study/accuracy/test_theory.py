@@ -95,6 +95,7 @@ def test_two_frequencies_are_fastest_at_the_ratio_of_the_table():
     assert max(others) < best
 
 
+@pytest.mark.long  # the solver is compiled for plates with harmonics
 def test_the_opposite_phase_reverses_a_part_that_slides():
     """Shifted by half a cycle, the plate's motion is the mirrored one."""
     settings = {"model": MODEL | {"stiffness": 5e5, "damping": 0.3, "exponent": 1.5}}
