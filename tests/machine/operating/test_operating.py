@@ -229,20 +229,30 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
     assert (row.impact_speed, row.peak_force) == pytest.approx(peaks, nan_ok=True)
 
 
-def test_where_motions_settle_slowly_a_few_initial_conditions_are_followed_to_the_limit(monkeypatch):
-    """One of the first initial conditions at 49 m/s² ends undecided."""
+def test_where_motions_do_not_converge_a_few_initial_conditions_are_followed_to_the_limit(monkeypatch):
+    """One of the first initial conditions at 49 m/s² ends undecided. At 50 and 51 m/s², every second motion has a long
+    period, and at 51 m/s² another one converges late.
+    """
+    limit, late = 20_000, 5000
 
     def followed(parameters, *, cycles, **_):
-        slow = (parameters["acceleration"] == 49.0) & (np.arange(len(parameters)) == len(parameters) - 1)
-        return Columns({"state": np.where(slow, "undecided", "first"), "cycles": np.full(len(parameters), cycles)})
+        amplitude, number = parameters["acceleration"], parameters["z0"]
+        slow = (amplitude == 49.0) & (number == shares.TRIED - 1)
+        needed = np.where(slow | ((amplitude >= 50.0) & (number % 2 == 0)), np.inf, 10.0)
+        needed[(amplitude == 51.0) & (number == 1)] = late
+        return Columns({"state": np.where(slow, "undecided", "first"), "cycles": np.minimum(needed, cycles)})
 
     monkeypatch.setattr(shares, "classify", followed)
     monkeypatch.setattr(shares, "shared_attractors", lambda *_, **__: None)
-    settings = {**BOX, "settling": 20_000, "starts": 100}
-    rows = shares.population(np.array([40.0, 49.0]), settings, shares.IDENTICAL)
-    labels = shares.labels_of(rows, settings)
-    assert np.flatnonzero(labels.cycles < 20_000).tolist() == list(range(100 + shares.TRIED, 200))
-    assert labels.state[100 + shares.TRIED - 1] == "undecided"
+    starts = 100
+    rows = shares.population(np.array([40.0, 49.0, 50.0, 51.0]), {**BOX, "starts": starts}, shares.IDENTICAL)
+    rows["z0"] = np.tile(np.arange(starts), 4)
+    labels = shares.labels_of(rows, {**BOX, "settling": limit, "starts": starts})
+    longest = labels.cycles.reshape(4, starts)
+    tried, others = longest[:, : shares.TRIED].max(axis=1), longest[:, shares.TRIED :].max(axis=1)
+    assert tried.tolist() == [10, limit, limit, limit]
+    assert others.tolist() == [10, 10, shares.BRIEF, limit]
+    assert np.flatnonzero(labels.state == "undecided").tolist() == [starts + shares.TRIED - 1]
 
 
 def test_the_standard_error_agrees_with_repeated_draws():

@@ -53,26 +53,36 @@ FOLLOWED = 8  # initial conditions per attractor from which its mean velocity is
 CYCLES = 250  # excitation cycles, at least, over which a mean velocity is computed
 FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
 TRIED = 32  # initial conditions of each amplitude that are followed until their motions are known, or to the limit
-BRIEF = 1000  # excitation cycles of the others where one of these ended at the limit
+BRIEF = 1000  # excitation cycles of the others where more would not help
 
 
 def labels_of(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Columns:
     """The labels of the initial conditions of some amplitudes, shape (m starts,).
 
     Where one of the first TRIED of an amplitude ends undecided, motions settle too slowly to be known in any case, so
-    that the others are followed for BRIEF cycles only, and end undecided if they have not converged.
+    that the others are followed for BRIEF cycles only, and end undecided if they have not converged. Where some of the
+    first TRIED end at the limit as regular motions of a long period or chaos, and none converges between BRIEF cycles
+    and the limit, more cycles than BRIEF would not help the others; Lyapunov exponents label them then.
     """
     options = {"threads": threads, "progress": progress}
-    known = shared_attractors(parameters, settings["starts"], settings, **options)
+    known, limit = shared_attractors(parameters, settings["starts"], settings, **options), settings["settling"]
     options = {**search_options(settings), "attractors": known, **options}
+    brief = {**options, "cycles": min(BRIEF, limit)}
     amplitude, start = np.divmod(np.arange(len(parameters)), settings["starts"])
     first = start < TRIED
     tried = classify(parameters[first], **options)
-    slow = np.isin(amplitude, amplitude[first][tried.state == "undecided"])
-    brief = options | {"cycles": min(BRIEF, settings["settling"]), "exponents": False}
-    others, parts = [~first & ~slow, ~first & slow], [tried]
-    parts += [classify(parameters[rows], **how) for rows, how in zip(others, (options, brief), strict=True)]
-    return join(parts, [np.flatnonzero(rows) for rows in (first, *others)])
+
+    def others_where(which: np.ndarray) -> np.ndarray:
+        """The others of the amplitudes of some of those that were tried."""
+        return ~first & np.isin(amplitude, amplitude[first][which])
+
+    undecided = others_where(tried.state == "undecided")
+    endless = others_where(tried.cycles >= limit) & ~undecided
+    endless &= ~others_where((tried.cycles > BRIEF) & (tried.cycles < limit))
+    rows = [first, ~(first | undecided | endless), endless, undecided]
+    how = [options, brief, brief | {"exponents": False}]
+    parts = [classify(parameters[some], **given) for some, given in zip(rows[1:], how, strict=True)]
+    return join([tried, *parts], [np.flatnonzero(some) for some in rows])
 
 
 def groups(labels: Columns, conveyor: np.ndarray) -> np.ndarray:
