@@ -11,8 +11,8 @@ from .columns import Columns
 from .methods import fixed_step
 from .packing import check_column, check_rows, copy_table
 from .parallel import for_each_chunk
-from .parameters import RANGES, UNITS
-from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, check_run, follow_by_events
+from .parameters import LAST, RANGES, UNITS
+from .simulation import DEFAULT_STEP, DEFAULT_TOLERANCE, check_run, follow_by_events, name_results
 from .solver import record, trajectory
 from .solver.arrivals import CYCLES, EVERY_CYCLE, ON_TRACK, SHARE
 from .solver.model import Conveyor
@@ -81,7 +81,10 @@ def sweep(
     def work(begin, end):
         part = slice(begin, end)
         if method == "event":
-            some = follow_by_events(rows[part], durations[part], tolerance, feeding)
+            samples, results = follow_by_events(rows[part], durations[part], tolerance, feeding)
+            before, after = samples.transpose(1, 2, 0)
+            some = name_results(before, after, results.T, durations[part])
+            some["mean_velocity"] = (after[X] - before[X]) / (LAST * durations[part])
         else:
             some = fixed_step.run(rows[part], float(durations[begin]), step, method)
         for name in columns:

@@ -1,6 +1,7 @@
 """One call for every method: `simulate` follows one part on one conveyor."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -162,32 +163,35 @@ def check_run(duration: float, method: str, tolerance: float, step: float) -> tu
 
 def follow_by_events(
     parameters: np.ndarray, durations: np.ndarray, tolerance: float, feeding: bool, reuse: bool = True
-) -> dict[str, np.ndarray]:
-    """The results of runs by events, each of shape (n,), for `parameters`, shape (n, 16), and `durations` (s).
+) -> tuple[np.ndarray, np.ndarray]:
+    """Samples where the last quarters of runs begin and end, shape (n, 2, 6), and results, shape (n, 11).
 
-    They are the columns of `ensemble.sweep`, and those that only a Run has.
+    parameters, durations : shape (n, 16), and s, shape (n,)
     """
     times = durations[:, None] * np.array([1.0 - LAST, 1.0])
-    samples, results = trajectory.integrate(parameters, times, tolerance=tolerance, feeding=feeding, reuse=reuse)
-    before, after = samples[:, 0], samples[:, 1]
-    with np.errstate(invalid="ignore"):  # a quarter of the shortest duration is no number above 0
-        velocity = (after[:, record.X] - before[:, record.X]) / (LAST * durations)
+    return trajectory.integrate(parameters, times, tolerance=tolerance, feeding=feeding, reuse=reuse)
+
+
+def name_results(before: Sequence, after: Sequence, results: Sequence, duration: ArrayLike) -> dict:
+    """What `follow_by_events` returns, by name: columns of `ensemble.sweep`, and what only a Run has.
+
+    before, after, results : the numbers of one run, or the columns of many
+    """
     return {
-        "mean_velocity": velocity,
-        "x_last": before[:, record.X],
-        "x_end": after[:, record.X],
-        "vx_end": after[:, record.VX],
-        "z_end": after[:, record.Z],
-        "vz_end": after[:, record.VZ],
-        "max_gap": results[:, record.MAX_GAP],
-        "impacts": results[:, record.IMPACTS],
-        "contact_fraction": results[:, record.CONTACT_TIME] / durations,
-        "impact_speed": results[:, record.IMPACT_SPEED],
-        "peak_force": results[:, record.PEAK_FORCE],
-        "status": results[:, record.CODE],
-        "work": results[:, record.STEPS],
-        "repeats": results[:, record.REPEATS],
-        "event_count": results[:, record.EVENTS],
+        "x_last": before[record.X],
+        "x_end": after[record.X],
+        "vx_end": after[record.VX],
+        "z_end": after[record.Z],
+        "vz_end": after[record.VZ],
+        "max_gap": results[record.MAX_GAP],
+        "impacts": results[record.IMPACTS],
+        "contact_fraction": results[record.CONTACT_TIME] / duration,
+        "impact_speed": results[record.IMPACT_SPEED],
+        "peak_force": results[record.PEAK_FORCE],
+        "status": results[record.CODE],
+        "work": results[record.STEPS],
+        "repeats": results[record.REPEATS],
+        "event_count": results[record.EVENTS],
     }
 
 
@@ -234,10 +238,11 @@ def simulate(
     check_flag("reuse", reuse)
     rows = pack(conveyor, start)[None]
     if method == "event":
-        columns = follow_by_events(rows, np.array([duration]), tolerance, True, reuse)
+        samples, results = follow_by_events(rows, np.array([duration]), tolerance, True, reuse)
+        run = name_results(*samples[0].tolist(), results[0].tolist(), duration)
     else:
         columns = fixed_step.run(rows, duration, step, method)
-    run = {name: column.item() for name, column in columns.items() if name != "mean_velocity"}
+        run = {name: column.item() for name, column in columns.items() if name != "mean_velocity"}
     code = run.pop("status")
     if code != OK:
         run["max_gap"] = run["contact_fraction"] = math.nan

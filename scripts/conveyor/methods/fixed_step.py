@@ -91,8 +91,8 @@ def run(parameters: np.ndarray, duration: float, step: float, method: str = "eul
 
     Returns
     -------
-    the columns of simulation.follow_by_events, shape (n,); work is the number of evaluations of the forces, and events
-    are not counted, because a Run follows them again
+    the mean velocity (m/s) and what simulation.name_results returns, shape (n,); work is the number of evaluations of
+    the forces, and events are not counted, because a Run follows them again
     """
     n_steps = step_count(duration, step)
     first = min(round((1.0 - LAST) * n_steps), n_steps - 1)
