@@ -119,14 +119,14 @@ def check_tolerance(tolerance: object, name: str = "tolerance") -> float:
     return check_number(name, tolerance, 1e-14, 1e-2)
 
 
-def check_limits(name: str, limits: object, parameter: str, value: float) -> tuple[float, float]:
+def check_limits(limits: object, parameter: str, value: float) -> tuple[float, float]:
     """The lowest and highest value of a parameter, on either side of a `value`; ValueError names the wrong one."""
     if not isinstance(limits, (tuple, list, np.ndarray)) or not np.iterable(limits) or len(limits) != 2:
-        raise ValueError(f"{name} = {limits!r} must be the lowest and the highest {parameter}")
+        raise ValueError(f"limits = {limits!r} must be the lowest and the highest {parameter}")
     (low, high), unit = RANGES[parameter], UNITS[parameter]
     return (
-        check_number(f"{name}[0]", limits[0], low, value, unit),
-        check_number(f"{name}[1]", limits[1], value, high, unit),
+        check_number("limits[0]", limits[0], low, value, unit),
+        check_number("limits[1]", limits[1], value, high, unit),
     )
 
 

@@ -82,6 +82,11 @@ def normal_gravity(model: Mapping[str, float]) -> float:
     return model["gravity"] * math.cos(model.get("inclination", 0.0))
 
 
+def length_scale(model: Mapping[str, float]) -> float:
+    """The unit of length of the motion normal to the track, g cos α/ω² (m)."""
+    return normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2
+
+
 # Methods with a fixed step. The position of a name is its code in compiled functions.
 FIXED_STEP_METHODS = ("euler", "semi_implicit_euler", "rk4")
 

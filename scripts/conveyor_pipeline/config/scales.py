@@ -9,8 +9,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from conveyor.parameters import normal_gravity
-from conveyor_pipeline.common.scales import length_scale
+from conveyor.parameters import length_scale, normal_gravity
 from conveyor_pipeline.config.files import merge
 from conveyor_pipeline.config.schema import child, schema_at, unit_of
 from conveyor_pipeline.config.stages import declared

@@ -95,20 +95,21 @@ def figure(width: float, height: float) -> Figure:
     return Figure(figsize=(width * MM, height * MM))
 
 
-def method_panels(figure: Figure, tables: dict[str, pd.DataFrame], xlabel: str, ylabel: str) -> list[Axes]:
-    """Panels side by side, one per method, with common scales, titles and axis labels; `tables` are keyed by role."""
-    panels = figure.subplots(1, len(tables), sharex=True, sharey=True, squeeze=False)[0]
-    for axes, role in zip(panels, tables, strict=True):
-        axes.set_title(LOOKS[role]["label"])
-        axes.set_xlabel(xlabel)
-    panels[0].set_ylabel(ylabel)
-    return list(panels)
-
-
 def velocity_axis(axis: Axis) -> None:
     """Label an axis of mean feeding velocities (m/s) in cm/s, the unit of the paper's text."""
     axis.set_label_text(VELOCITY)
     axis.set_major_formatter(lambda value, _: f"{100.0 * value:.6g}")
+
+
+def velocity_panels(figure: Figure, roles: Iterable[str], xlabel: str) -> list[Axes]:
+    """Panels of feeding velocities side by side, one per method in the order of `roles`, with common scales."""
+    names = [LOOKS[role]["label"] for role in roles]
+    panels = figure.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
+    for axes, name in zip(panels, names, strict=True):
+        axes.set_title(name)
+        axes.set_xlabel(xlabel)
+    velocity_axis(panels[0].yaxis)
+    return list(panels)
 
 
 def from_zero(*panels: Axes) -> None:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from conveyor_pipeline.common.scales import length_scale
+from conveyor.parameters import length_scale
 from conveyor_pipeline.machine.operating.body_limits import TILT
 from conveyor_pipeline.machine.operating.populations import ENDS
 

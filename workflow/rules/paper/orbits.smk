@@ -92,7 +92,6 @@ rule estimators:
         benchmark_file("estimators/{name}")
     wildcard_constraints:
         name="stability_estimates|moved_impacts",
-    threads: THREADS
     params:
         **stage("conveyor_pipeline.paper.orbits.{name}", "results/{name}"),
     script:

@@ -322,7 +322,7 @@ def continue_bifurcation(
     check_choice("parameter", parameter, PATHS)
     check_choice("bifurcation.kind", bifurcation.kind, (*SIGNS, GRAZING))
     row, kind, period = bifurcation.orbit.parameters, bifurcation.kind, bifurcation.orbit.period
-    ends = check_limits("limits", limits, parameter, row[parameter].item())
+    ends = check_limits(limits, parameter, row[parameter].item())
     if not ends[0] > 0.0:
         raise ValueError(f"limits[0] = {limits[0]!r} must be above 0: a curve is followed over the logarithm")
     point = bifurcation_near(row, kind, bifurcation.orbit.state, period)

@@ -106,7 +106,7 @@ def continue_orbit(orbit: Orbit, parameter: str, limits: Sequence[float], *, pro
     """
     check_orbit("orbit", orbit)
     check_choice("parameter", parameter, CONTINUED)
-    low, high = check_limits("limits", limits, parameter, orbit.value(parameter))
+    low, high = check_limits(limits, parameter, orbit.value(parameter))
     branch = follow_branch(orbit, parameter, (low, high), progress=progress)
     return branch._replace(
         orbits=[one for one in branch.orbits if low <= one.value(parameter) <= high],

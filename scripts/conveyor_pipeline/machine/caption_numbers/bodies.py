@@ -4,7 +4,7 @@ import math
 
 import pandas as pd
 
-from conveyor_pipeline.common.scales import length_scale
+from conveyor.parameters import length_scale
 from conveyor_pipeline.common.templates import format_number
 from conveyor_pipeline.machine.operating.body_limits import LONGEST, MOTIONS, PARTS, RIGHT, STATEMENT, TILT, TRACK
 from conveyor_pipeline.machine.operating.populations import ENDS

@@ -193,12 +193,12 @@ def further_line(time: np.ndarray, fitted: Fit) -> tuple[float, float] | None:
     return (float(frequencies[place]), float(amplitudes[axis, place])) if counts[axis, place] else None
 
 
-def first_fit(time: np.ndarray, signals: np.ndarray, orders: int = CHECKED_ORDERS) -> tuple[Fit, tuple | None]:
+def first_fit(time: np.ndarray, signals: np.ndarray) -> tuple[Fit, tuple | None]:
     """The harmonics, and a line that is no multiple of their frequency, or None."""
     rate = sampling_rate(time)
 
     def fitted(guess: float) -> Fit:
-        return fit(time, signals, guess, min(orders, orders_of(rate, guess)))
+        return fit(time, signals, guess, min(CHECKED_ORDERS, orders_of(rate, guess)))
 
     model = fitted(strongest(time, signals)[0])
     other = further_line(time, model)

@@ -6,7 +6,12 @@ from conveyor import Dimension, box_dimension, correlation_dimension, sample_run
 from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.paper.dimensions.limits import LARGEST_ERROR
-from conveyor_pipeline.paper.orbits.published_estimates import box_dimension_of_paper
+from conveyor_pipeline.paper.orbits.published_estimates import (
+    INTERVAL,
+    SETTLED_INTERVAL,
+    THEILER,
+    box_dimension_of_paper,
+)
 
 TABLES = {
     "dimensions": (
@@ -17,14 +22,9 @@ TABLES = {
 }
 
 
-INTERVAL = 2.5e-4  # excitation cycles between samples of a run from its beginning: ten time steps of the paper's method
-# Excitation cycles between samples of a settled motion: the golden ratio spreads those of a periodic motion evenly.
-SETTLED_INTERVAL = 0.6180339887498949
-OCTAVES = 8  # the paper's box sizes: 1/2 to 1/256 of the extent; open: sizes at which the samples resolve a curve
 # Samples of a settled motion: enough to know the dimension of chaos to ± 0.1 by boxes; fewer for the correlation sum,
 # because the number of pairs grows with their square.
 SAMPLES = {"box": 300_000, "correlation": 20_000}
-THEILER = 20  # samples, which are twelve excitation cycles: pairs at most this far apart in time are left out
 
 
 def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
@@ -44,7 +44,7 @@ def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
 def estimate(points: np.ndarray, settings: dict) -> Dimension:
     """The dimension of a portrait by the estimator of the settings."""
     if settings["estimator"] == "paper":
-        return box_dimension_of_paper(points, 0.5 ** np.arange(1, OCTAVES + 1))
+        return box_dimension_of_paper(points)
     return box_dimension(points) if settings["estimator"] == "box" else correlation_dimension(points, THEILER)
 
 

@@ -40,8 +40,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, two_states: list[float
     """Draw sweeps over acceleration and z0, and shade the interval `two_states` (m/s²)."""
     figure = style.figure(style.PAGE, 72.0)
     sweeps = {"euler": euler, "converged": converged}
-    panels = style.method_panels(figure, sweeps, style.AMPLITUDE, style.VELOCITY)
-    style.velocity_axis(panels[0].yaxis)
+    panels = style.velocity_panels(figure, sweeps, style.AMPLITUDE)
     plate = {"color": style.PLATE, "linewidth": 0.8, "linestyle": "--", "label": "largest velocity of the conveyor"}
     for axes, sweep in zip(panels, sweeps.values(), strict=True):
         if two_states is not None:

@@ -12,8 +12,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, critical_height: float
     """Draw sweeps over acceleration and z0, and mark `critical_height` (m)."""
     figure = style.figure(style.PAGE, 72.0)
     sweeps = {"euler": euler, "converged": converged}
-    panels = style.method_panels(figure, sweeps, "initial height $z_0$ in mm", style.VELOCITY)
-    style.velocity_axis(panels[0].yaxis)
+    panels = style.velocity_panels(figure, sweeps, "initial height $z_0$ in mm")
     for axes, sweep in zip(panels, sweeps.values(), strict=True):
         curves = sweep.groupby("acceleration")
         # The palest end of the colour map would be lost on white.

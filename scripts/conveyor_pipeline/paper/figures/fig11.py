@@ -11,8 +11,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, two_states: list[float
     """Draw sweeps over acceleration and z0, and shade the interval `two_states` (m/s²)."""
     figure = style.figure(style.PAGE, 66.0)
     sweeps = {"euler": euler, "converged": converged}
-    panels = style.method_panels(figure, sweeps, style.AMPLITUDE, style.VELOCITY)
-    style.velocity_axis(panels[0].yaxis)
+    panels = style.velocity_panels(figure, sweeps, style.AMPLITUDE)
     for axes, sweep in zip(panels, sweeps.values(), strict=True):
         if two_states is not None:
             axes.axvspan(*two_states, color="0.93", linewidth=0.0)

@@ -10,8 +10,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame) -> Figure:
     """Draw sweeps over z0."""
     figure = style.figure(style.PAGE, 60.0)
     sweeps = {"euler": euler, "converged": converged}
-    panels = style.method_panels(figure, sweeps, "initial height $z_0$ in mm", style.VELOCITY)
-    style.velocity_axis(panels[0].yaxis)
+    panels = style.velocity_panels(figure, sweeps, "initial height $z_0$ in mm")
     for axes, (role, rows) in zip(panels, sweeps.items(), strict=True):
         colour = style.LOOKS[role]["color"]
         axes.plot(1e3 * rows.z0, rows.mean_velocity, ".-", color=colour, linewidth=0.4, markersize=2.5)

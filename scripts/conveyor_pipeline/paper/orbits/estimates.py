@@ -10,13 +10,10 @@ TABLES = {
 }
 
 
-SAMPLES = 501  # times in the averaged share: over 40 per cycle of the paper; more do not change the mean
-
-
 def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of a table of estimates for the resolved `settings` of an entry of the config."""
     options = {name: settings[name] for name in ("output", "duration", "last", "method")}
-    options |= {name: settings[name] for name in ("tolerance", "step") if name in settings} | {"samples": SAMPLES}
+    options |= {name: settings[name] for name in ("tolerance", "step") if name in settings}
     axes, parameters = grid.product(settings["axes"], settings["model"])
     perturbed = parameters.copy()
     perturbed[settings["perturb"]] += settings["epsilon"]

@@ -7,6 +7,7 @@ import numpy as np
 from conveyor import Run, conveyor_and_start, simulate
 from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.paper.orbits.published_estimates import LAST
 
 TABLES = {
     "moved_impacts": (
@@ -32,7 +33,6 @@ EPSILONS = (1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3)  # rad; the first one is the per
 STEPS = (5e-7, 2.5e-7, 5e-6)  # s; the first one is the paper's
 DURATION = 1.0  # s
 TIMES = np.linspace(0.0, DURATION, 51)[1:]  # s, ends of the excitation cycles of the paper
-LAST = 0.25  # share of the run, as in Fig. 22
 TOLERANCE = 1e-12  # of the converged solution: differences of 3e-11 s have to be exact
 
 

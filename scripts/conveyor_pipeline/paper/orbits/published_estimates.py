@@ -1,6 +1,7 @@
-"""The paper's estimates: the Lyapunov exponent from pairs of trajectories (Eq. 23), and box counting (Sect. 4.2)."""
+"""The paper's estimates: the Lyapunov exponent from pairs of trajectories (Eq. 23), and box counting (Sect. 4.2).
 
-from collections.abc import Iterable
+With the times at which phase portraits are sampled, also for other estimates.
+"""
 
 import numpy as np
 
@@ -10,6 +11,14 @@ from conveyor.linear_algebra import fit_line
 from conveyor.parameters import DEFAULT_STEP
 from conveyor.progress import progress_bar
 
+LAST = 0.25  # share of a run over which Fig. 22 takes a mean
+SAMPLES = 501  # times in this share: over 40 per cycle of the paper; more do not change the mean
+# Excitation cycles between the points of portraits: ten time steps of the paper; in a settled motion the golden ratio,
+# which spreads the points of a periodic one evenly over its orbit.
+INTERVAL, SETTLED_INTERVAL = 2.5e-4, 0.6180339887498949
+THEILER = 20  # points of a settled motion, which are twelve cycles: closer pairs are left out of a correlation sum
+BOX_SIZES = 0.5 ** np.arange(1, 9)  # 1/2 to 1/256 of the extent; open: sizes at which the points resolve a curve
+
 
 def finite_difference_exponent(
     parameters: np.ndarray,
@@ -18,8 +27,7 @@ def finite_difference_exponent(
     *,
     output: str,
     duration: float = 1.0,
-    last: float = 0.25,
-    samples: int = 501,
+    last: float = LAST,
     method: str = "event",
     step: float = DEFAULT_STEP,
     progress: str | None = None,
@@ -34,10 +42,10 @@ def finite_difference_exponent(
     parameters, perturbed : tables, shape (n,): the trajectories and their neighbours
     epsilon : size of the perturbation, in the unit of the perturbed parameter
     output : the signal that is compared, a column of `sample_runs`
-    last, samples : the mean is taken over `samples` equidistant times in the last part of the run, a share in (0, 1)
+    last : the mean is taken over this last part of the run, a share in (0, 1)
     duration, method, step, progress, options : as in `sweep`
     """
-    times = np.linspace((1.0 - last) * duration, duration, samples)
+    times = np.linspace((1.0 - last) * duration, duration, SAMPLES)
     if method != "event":
         times = np.rint(times / step) * step
     options |= {"columns": [output], "method": method, "step": step, "chunk": 16}
@@ -51,14 +59,12 @@ def finite_difference_exponent(
     return np.mean(np.log(difference / epsilon) / times, axis=1)
 
 
-def box_dimension_of_paper(points: np.ndarray, sizes: Iterable[float] = tuple(0.5 ** np.arange(1, 9))) -> Dimension:
-    """Box counting without precautions: one grid, a straight line through the counts of all `sizes`.
+def box_dimension_of_paper(points: np.ndarray) -> Dimension:
+    """Box counting of `points`, shape (n, 2), without precautions: one grid, a line through the counts of all sizes.
 
     The error is twice the standard error of the slope, as if the counts scattered independently.
-
-    points, sizes : shape (n, 2), and sizes of the boxes in units of the set's extent
     """
-    points, scales = normalise(points), np.sort(np.asarray(sizes, dtype=np.float64))[::-1]
+    points, scales = normalise(points), BOX_SIZES
     boxes = ((points * (1.0 / size)).astype(np.int64) for size in scales)
     counts = np.array([len(np.unique(across << 32 | along)) for across, along in (box.T for box in boxes)], float)
     slope, _, error = fit_line(np.log(scales), np.log(counts))

@@ -19,7 +19,14 @@ from conveyor import (
 )
 from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields, grid
-from conveyor_pipeline.paper.orbits.published_estimates import box_dimension_of_paper, finite_difference_exponent
+from conveyor_pipeline.paper.orbits.published_estimates import (
+    INTERVAL,
+    LAST,
+    SETTLED_INTERVAL,
+    THEILER,
+    box_dimension_of_paper,
+    finite_difference_exponent,
+)
 from conveyor_pipeline.paper.orbits.reference_sets import REFERENCE_DIMENSIONS
 
 TABLES = {
@@ -57,12 +64,7 @@ PORTRAITS = {"second": {"acceleration": 40.0, "z0": 0.3e-3}, "chaos": {"accelera
 BEGIN = 20.0  # s, first sample of a settled portrait
 RUN_TIMES = (0.1, 0.2, 0.5, 1.0, 2.0, 4.0)  # s, from the beginning of the run: the paper's box counting, with Euler
 SEED = 1
-LAST, SAMPLES = 0.25, 501  # share of a run and samples in it, as in Fig. 22
 PERIODS, SETTLING = (1, 2, 4), 1000  # excitation cycles
-# Excitation cycles between the samples of a portrait: the golden ratio, which spreads the samples of a periodic motion
-# evenly over its orbit, and ten time steps of the paper's method.
-INTERVAL, PAPER_INTERVAL = 0.6180339887498949, 2.5e-4
-THEILER = 20  # samples; pairs that are closer in time are left out of a correlation sum
 # A periodic orbit is a closed curve; the dimension of the chaotic attractor is unknown.
 CURVE = {"second": 1.0, "chaos": math.nan}
 NONE = {"epsilon": math.nan, "duration": math.nan, "step": math.nan, "samples": math.nan, "bound": math.nan}
@@ -107,9 +109,7 @@ def exponent_rows(model: dict, progress: str | None) -> list[dict]:
                 there[case["perturb"]] += run["epsilon"]
                 bound = saturated_estimate(here, case["output"], run["epsilon"], run["duration"])
                 for method in ("event", "euler"):
-                    value = finite_difference_exponent(
-                        here, there, **run, output=case["output"], last=LAST, samples=SAMPLES, method=method
-                    )[0]
+                    (value,) = finite_difference_exponent(here, there, **run, output=case["output"], method=method)
                     estimated = run | {"value": float(value), "error": math.nan, "truth": truth, "bound": bound}
                     rows.append({**NONE, "panel": panel, "case": name, "estimator": method, **estimated})
     return rows
@@ -150,13 +150,13 @@ def dimension_rows(model: dict, progress: str | None) -> list[dict]:
             estimated = estimate_dimensions(draw(rng, count), 0)
             add("known set", draw.__name__, estimated, truth, samples=count)
         for name, case in PORTRAITS.items():
-            times = BEGIN + INTERVAL / model["frequency"] * np.arange(count)
+            times = BEGIN + SETTLED_INTERVAL / model["frequency"] * np.arange(count)
             points = portrait(parameters_of(case, model)[0], times, "event")
             estimated = estimate_dimensions(points, THEILER)
             add("samples", name, estimated, CURVE[name], samples=count)
     for name, case in PORTRAITS.items():
         for duration in RUN_TIMES:
-            count = round(duration * model["frequency"] / PAPER_INTERVAL) + 1
+            count = round(duration * model["frequency"] / INTERVAL) + 1
             times = np.linspace(0.0, duration, count)
             points = portrait(parameters_of(case, model)[0], times, "euler")
             estimated = {"boxes, as in the paper": box_dimension_of_paper(points)}
