@@ -123,8 +123,9 @@ def test_energy_balance(acceleration):
     assert energy[1] - energy[0] == pytest.approx(work, abs=1e-7 * conveyor.mass)
 
 
-def test_horizontal_motion_is_the_integral_of_the_friction_force():
-    run = simulate(Conveyor(acceleration=35.0), Start(), duration=0.06, tolerance=1e-12)
+@pytest.mark.parametrize("tension", ["allow", "frictionless", "clip"])
+def test_horizontal_motion_is_the_integral_of_the_friction_force(tension):
+    run = simulate(Conveyor(acceleration=35.0, tension=tension), Start(), duration=0.06, tolerance=1e-12)
     edges = np.unique(np.concatenate([[0.0], run.events["time"], [0.06]]))
     velocity = 0.0
     for low, high in itertools.pairwise(edges):
