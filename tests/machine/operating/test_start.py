@@ -129,13 +129,44 @@ def test_motions_of_the_papers_conveyor_live_to_their_folds():
 
 
 def test_limits_are_quantiles_of_the_parts_that_differ():
-    """Part 0 is that of the config. Part 3 never jumps on the way up, and always on the way down."""
+    """Part 0 is that of the config. Part 3 never jumps on the way up, and down to the lowest amplitude."""
     up = np.array([20.0, 30.0, 40.0])
     rising = np.array([[0.0, 0.0, 0.0, 0.0], [0.0, 0.9, 0.0, 0.0], [0.9, 0.9, 0.9, 0.0]])
     falling = np.array([[0.9, 0.9, 0.9, 0.9], [0.0, 0.9, 0.0, 0.9], [0.0, 0.0, 0.0, 0.9]])
     paths = [start.Path(flight, flight, flight) for flight in (rising, falling)]
     found = pd.DataFrame(start.limits_of(up, up[::-1], tuple(paths)))
-    assert found.acceleration.replace({np.nan: None}).tolist() == [40.0, 30.0, 40.0, None, 40.0, 40.0, 30.0, 20.0]
+    assert found.acceleration.replace({np.nan: None}).tolist() == [40.0, 30.0, 40.0, None, 40.0, 40.0, 30.0, None]
+    assert found.status.tolist() == ["ok", "ok", "ok", start.RIDE, "ok", "ok", "ok", start.JUMP_FIRST]
+
+
+@pytest.mark.parametrize(
+    ("rising", "falling", "sentence", "row"),
+    [
+        ([0.9, 0.9], [0.9, 0.9], "less than 20 m/s²", "| below 20 | below 20 |"),
+        ([0.0, 0.9], [0.9, 0.9], "half of the parts still jump at 20 m/s²", "| 40 | below 20 |"),
+        ([0.0, 0.9], [0.9, 0.0], "half of the parts stop jumping at 40 m/s²", "| 40 | 40 |"),
+        ([0.0, 0.0], [0.0, 0.0], "ride at all amplitudes up to 40 m/s²", "| above 40 | ride at all amplitudes |"),
+    ],
+)
+def test_the_page_does_not_take_the_end_of_a_ramp_for_the_end_of_a_motion(made, rising, falling, sentence, row):
+    advice, tables = made
+    up, flights = np.array([20.0, 40.0]), [np.tile(np.array(way)[:, None], (1, 5)) for way in (rising, falling)]
+    paths = tuple(start.Path(flight, flight, flight) for flight in flights)
+    limits = pd.DataFrame(start.limits_of(up, up[::-1], paths))
+    ramps = tables["start"].assign(acceleration=np.resize(up, len(tables["start"])))
+    ramps.attrs = tables["start"].attrs
+    changed = tables | {"start": ramps, "start_limits": limits}
+    page = start_page.make(TEMPLATE, advice, *(changed[name] for name in start.TABLES))
+    assert sentence in page.splitlines()[2]
+    assert f"| 50 % of the parts that differ {row}" in page
+
+
+def test_where_fewer_than_half_of_the_parts_jump_no_amplitude_is_named_at_which_half_of_them_stop(made):
+    advice, tables = made
+    limits = tables["start_limits"].copy()
+    limits.loc[(limits.way == "up") & (limits.share == 0.05), ["acceleration", "status"]] = [40.0, "ok"]
+    page = start_page.make(TEMPLATE, advice, *((tables | {"start_limits": limits})[name] for name in start.TABLES))
+    assert "fewer than half of the parts jump at any amplitude" in page.splitlines()[2]
 
 
 def test_a_motion_repeats_itself_if_its_gaps_do():

@@ -5,6 +5,8 @@ AT_REST, DROPPED, FED = KINDS = ("at rest", "dropped", "dropped at full amplitud
 UP, STAY, DOWN = WAYS = ("up", "stay", "down")
 SLOWLY = "slow"  # the aim of ramps over all amplitudes; the other ramps lead to the amplitude of an aim of the advice
 STEP = 1e-3  # relative step of the amplitude in slow ramps, per half cycle
+# Why a slow ramp does not show at which amplitude a part changes its motion.
+RIDE, JUMP_FIRST = "rides at all amplitudes", "jumps at the lowest amplitude"
 CYCLES = 10  # per row of a slow ramp
 HOLD = 240  # cycles at the full amplitude; the last third counts
 PUSHED = 120  # cycles after a push; the last third counts

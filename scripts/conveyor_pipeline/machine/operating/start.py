@@ -29,9 +29,11 @@ from conveyor_pipeline.machine.operating.ramps import (
     DOWN,
     FED,
     HOLD,
+    JUMP_FIRST,
     KINDS,
     PUSHED,
     REPEATS,
+    RIDE,
     SLOWLY,
     STAY,
     STEP,
@@ -73,8 +75,9 @@ TABLES = {
     "start_limits": (
         fields.text("way", f"{UP}: a part begins to jump, {DOWN}: it jumps for the last time, in slow ramps"),
         fields.text("population", f"{IDENTICAL} (one part, with the parameters of the config) or {VARIED}"),
-        fields.number("share", "1", "share of the parts that have done so"),
-        fields.number("acceleration", "m/s²", "amplitude; null if fewer parts do so"),
+        fields.number("share", "1", "share of the parts that have done so; those that never jump have stopped"),
+        fields.number("acceleration", "m/s²", "amplitude; null unless the status is ok"),
+        fields.text("status", f"ok; {RIDE}: with this, fewer parts ever jump; or {JUMP_FIRST}"),
     ),
     "pushes": (
         AIM,
@@ -230,20 +233,23 @@ def repeats(gaps: np.ndarray, scale: np.ndarray) -> np.ndarray:
 def limits_of(up: np.ndarray, down: np.ndarray, paths: tuple[Path, Path]) -> list[dict]:
     """Rows of the table start_limits. The first part has the parameters of the config, the others differ.
 
+    A part that jumps in the first cycles of the ramp up, or in the last ones of that down, changes its motion below the
+    lowest amplitude.
+
     up, down : amplitudes (m/s²) of the half cycles of slow ramps
     """
-    rows = []
+    rows, end = [], up[0] * (1.0 + 2 * CYCLES * STEP)
     for way, amplitudes, path in zip((UP, DOWN), (up, down), paths, strict=True):
-        jumps = path.flight >= LONG_FLIGHT
-        jumps = jumps if way == UP else jumps[::-1]
-        first = np.where(jumps.any(axis=0), jumps.argmax(axis=0), -1)
-        own = np.append(amplitudes if way == UP else amplitudes[::-1], math.inf if way == UP else -math.inf)[first]
-        rows.append({"way": way, "population": IDENTICAL, "share": 1.0, "acceleration": own[0]})
-        varied = np.sort(own[1:]) if way == UP else np.sort(own[1:])[::-1]
-        for share in LAST:
-            place = max(math.ceil(share * len(varied)) - 1, 0)
-            rows.append({"way": way, "population": VARIED, "share": share, "acceleration": varied[place]})
-    return [row | {"acceleration": row["acceleration"] if math.isfinite(row["acceleration"]) else None} for row in rows]
+        lowest = np.where(path.flight >= LONG_FLIGHT, amplitudes[:, None], math.inf).min(axis=0)
+        lowest[lowest <= end] = -math.inf
+        varied = np.sort(lowest[1:]) if way == UP else np.sort(lowest[1:])[::-1]
+        places = [max(math.ceil(share * len(varied)) - 1, 0) for share in LAST]
+        found = [(IDENTICAL, 1.0, lowest[0]), *((VARIED, *pair) for pair in zip(LAST, varied[places], strict=True))]
+        for kind, share, amplitude in found:
+            status = JUMP_FIRST if amplitude == -math.inf else RIDE if amplitude == math.inf else "ok"
+            amplitude = amplitude if status == "ok" else None
+            rows.append({"way": way, "population": kind, "share": share, "acceleration": amplitude, "status": status})
+    return rows
 
 
 def push(rows: np.ndarray, amplitude: float, before: tuple[Motion, np.ndarray], settings: dict, **options) -> list:

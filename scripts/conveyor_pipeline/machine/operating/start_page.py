@@ -18,8 +18,10 @@ from conveyor_pipeline.machine.operating.ramps import (
     DROPPED,
     FED,
     HOLD,
+    JUMP_FIRST,
     PUSHED,
     REPEATS,
+    RIDE,
     SLOWLY,
     STEP,
     UP,
@@ -82,21 +84,20 @@ def make(
         runs = [runs[0] | {"aim": f"{FAST} and {EVEN}"}]
     slow = start[start.aim == SLOWLY]
     limits = {
-        (way, population, share): acceleration
-        for way, population, share, acceleration in start_limits[["way", "population", "share", "acceleration"]]
-        .replace({np.nan: None})
-        .itertuples(index=False)
+        (row["way"], row["population"], row["share"]): row
+        for row in start_limits.replace({np.nan: None}).to_dict("records")
     }
-    known = start_limits.acceleration[(start_limits.way == UP) & (start_limits.population == VARIED)]
     values = {
         "runs": runs,
         "settings": settings,
         "spread": differences(settings)["spread"],
         "limits": limits,
-        "some_jump": bool(known.notna().any()),
+        "some_jump": any(limits[UP, VARIED, share]["status"] != RIDE for share in LAST),
         "shares": LAST,
         "up": UP,
         "down": DOWN,
+        "ride": RIDE,
+        "jump_first": JUMP_FIRST,
         "identical": IDENTICAL,
         "varied": VARIED,
         "ends": (slow.acceleration.min(), slow.acceleration.max()),
