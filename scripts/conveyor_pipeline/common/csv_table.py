@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 MOST_FAULTS = 5  # that a message names
 DELETE = "delete the line"
 SAMPLED = 300  # lines that show how a file separates its columns
+SURELY_THOUSANDS = 50  # numbers of a column
 SEPARATORS = (";", "\t", ",", " ")
 NUMBER = re.compile(r"[-+]?(\d[\d.,'\u00a0\u202f]*|[.,]\d+)([eE][-+]?\d+)?")
 # A clock time, also behind a date of any form, or of minutes and seconds alone; some write 12:30:05:250, and AM or PM.
@@ -243,7 +244,14 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
         raise TableError([f"{path}:{lines[-1]}: is not CSV ({reason}); export the table as CSV"])
     fields = pd.DataFrame(columns=columns, dtype=str) if fields is None else fields
     fields = fields[range(len(names))].apply(lambda one: one.str.strip())
-    return Table(str(path), header, names, units_of, lines, fields, number_signs([fields[one] for one in fields]))
+    try:
+        signs = number_signs([fields[one] for one in fields], separator)
+    except ValueError as error:
+        number = str(error)
+        readings = f"{number.replace(',', '')} or {number.replace(',', '.')}"
+        remedy = "write decimal points, and no sign between thousands"
+        raise TableError([f"{path}: has the number {number}, which may be {readings}; {remedy}"]) from error
+    return Table(str(path), header, names, units_of, lines, fields, signs)
 
 
 def widths_of(line: str, separator: str) -> int:
@@ -253,11 +261,17 @@ def widths_of(line: str, separator: str) -> int:
     return line.count(separator) + 1
 
 
-def number_signs(fields: Sequence[Any]) -> tuple[str, str]:
+def number_signs(fields: Sequence[Any], separator: str) -> tuple[str, str]:
     """The decimal sign and the sign between thousands (may be empty) in columns of texts.
 
     A comma alone is decimal, unless a number has two of them, or each stands before three digits while other numbers
-    have a point or are too short for thousands. If some numbers have commas and more have points, commas are mistakes.
+    have a point. If some numbers have commas and more have points, commas are mistakes.
+
+    Raises
+    ------
+    ValueError
+        a number that may have a decimal comma or thousands: each comma stands before three digits, and other numbers
+        are short and have none. In a file with semicolons such a comma is decimal, unless its column has short numbers
     """
     fields = [one[one.str.fullmatch(NUMBER.pattern)] for one in fields]
     commas = [one[one.str.contains(",", regex=False)] for one in fields]
@@ -272,9 +286,16 @@ def number_signs(fields: Sequence[Any]) -> tuple[str, str]:
     if any(one.str.contains(r",.*,").any() for one in commas):
         return ".", ","
     grouped = all(one.str.fullmatch(r"[-+]?[1-9]\d{0,2},\d{3}").all() for one in commas)
-    short = any(one.str.fullmatch(r"[-+]?\d{1,3}").any() for one in fields)
-    if grouped and (points or short):
+    if grouped and points:
         return ".", ","
+    if grouped:
+        shorts = [one.str.fullmatch(r"[-+]?\d{1,3}").sum() for one in fields]
+        mixed = [(len(one), short) for one, short in zip(commas, shorts, strict=True) if len(one) and short]
+        # Of many decimals without a fixed number of digits, some would have fewer than three.
+        if mixed and max(mixed)[0] >= SURELY_THOUSANDS:
+            return ".", ","
+        if mixed or (any(shorts) and separator != ";"):
+            raise ValueError(next(one.iloc[0] for one in commas if len(one)))
     return (".", "") if points > sum(map(len, commas)) else (",", "")
 
 
