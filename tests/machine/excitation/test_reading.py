@@ -1,15 +1,12 @@
 """Accelerometer files: good ones in several spellings, and bad ones, each rejected with file, line and remedy."""
 
 import os
-import subprocess
-import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import yaml
 from accelerometer import Drive, check, read, table_of
-from project import ROOT
 
 from conveyor.parameters import HARMONIC
 from conveyor_pipeline import make
@@ -316,11 +313,3 @@ def test_faults_end_the_run_before_any_job(overlay, message, tmp_path):
     with pytest.raises(ConfigError) as error:
         load(tmp_path, overlay)
     assert message in str(error.value)
-
-
-def test_configs_without_a_file_need_no_slow_packages():
-    """Every Snakemake process imports the checks."""
-    code = "import sys; from conveyor_pipeline.config import checks; checks.problems(checks.default_config())"
-    code += "; print('scipy' in sys.modules)"
-    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT / "scripts", capture_output=True, text=True, check=True)
-    assert run.stdout.split() == ["False"]
