@@ -255,36 +255,6 @@ def test_where_motions_do_not_converge_a_few_initial_conditions_are_followed_to_
     assert np.flatnonzero(labels.state == "undecided").tolist() == [starts + shares.TRIED - 1]
 
 
-def test_the_standard_error_agrees_with_repeated_draws():
-    drawn = [
-        shares.shares_at(np.array([40.0]), {**BOX, "seed": seed}, followed=2).set_index("state").loc["first"]
-        for seed in range(30)
-    ]
-    share = np.array([row.share for row in drawn])
-    # A standard deviation from thirty draws is known to an eighth.
-    assert share.std(ddof=1) == pytest.approx(np.mean([row.stderr for row in drawn]), rel=0.4)
-
-
-def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
-    """Lengths in g/ω², velocities in g/ω: another frequency, gravity and mass, with matching damping and stiffness."""
-    paper = Conveyor()
-    frequency, gravity, mass = 3.0, 1.7, 5.0
-    length, velocity = gravity / frequency**2, gravity / frequency
-    model = {
-        "frequency": frequency * paper.frequency,
-        "gravity": gravity * paper.gravity,
-        "mass": mass * paper.mass,
-        "damping": mass * frequency * paper.damping,
-        "stiffness": mass * gravity / length**paper.exponent * paper.stiffness,
-    }
-    box = {"height": [length * end for end in BOX["height"]], "vz0": [velocity * end for end in BOX["vz0"]]}
-    other = shares.shares_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model}, followed=2)
-    for name in ("state", "period", "starts", "share", "stderr", "motion"):
-        assert (other[name] == table[name]).all(), name
-    assert np.allclose(other.vertical, table.vertical, rtol=1e-12)
-    assert np.allclose(other.mean_velocity, velocity * table.mean_velocity, rtol=1e-6)
-
-
 def rows_at(acceleration: float) -> dict[str, list]:
     """Made-up motions: one velocity below 31.4 m/s², two up to 50 (one of them by two motions), chaos and a jumping
     motion above 50, chaos alone above 56.
