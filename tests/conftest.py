@@ -26,6 +26,12 @@ def built(tmp_path_factory, worker_id) -> Project:
     return Project(shutil.copytree(first, own / "built", symlinks=True))
 
 
+@pytest.fixture(scope="module")
+def project(tmp_path_factory) -> Project:
+    """A copy of the project without results."""
+    return Project(copy_project(tmp_path_factory.mktemp("project")))
+
+
 @pytest.fixture
 def copied(built, tmp_path) -> Project:
     """A copy of the built project, which a test may change."""

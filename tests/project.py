@@ -16,7 +16,7 @@ from pathlib import Path
 
 import yaml
 
-from conveyor_pipeline.config import canonical
+from conveyor_pipeline.config import canonical, load_config, problems
 from conveyor_pipeline.config.entries import ENTRIES
 from conveyor_pipeline.config.files import DEFAULT_FILES
 from conveyor_pipeline.config.files import merge as merged
@@ -200,6 +200,32 @@ class Project:
     def under(self, overlay: dict) -> "Project":
         """The same folder with another overlay."""
         return Project(self.folder, overlay, self.environment)
+
+
+def load(overlay: dict) -> dict:
+    """The config of an overlay, as the Snakefile makes it."""
+    return load_config(DEFAULT_FILES, [], overlay).config
+
+
+def dry_run(overlay: dict, folder: Path, *targets: str) -> subprocess.CompletedProcess:
+    """A dry run of the project with an overlay, which is written to `folder`."""
+    file = folder / "mine.yaml"
+    file.write_text(yaml.safe_dump(overlay, sort_keys=False))
+    return Project(ROOT).called("--dry-run", *targets, "--configfile", str(file))
+
+
+def assert_refused(run: subprocess.CompletedProcess, message: str) -> None:
+    """Assert that Snakemake has failed with a message, and has said little else."""
+    assert run.returncode != 0
+    assert message in run.stdout
+    assert len(run.stdout.splitlines()) <= 10
+
+
+def assert_reported(overlay: dict, message: str) -> None:
+    """Assert that an overlay has an error with this message, and that all errors are readable."""
+    lines = problems(merged(read_config(), overlay))
+    assert any(message in line for line in lines), lines
+    assert all(line.isprintable() for line in lines)
 
 
 def copy_project(folder: Path) -> Path:

@@ -1,11 +1,11 @@
 """The documentation of the library: file names, and public names."""
 
 import re
-from pathlib import Path
+
+from project import ROOT
 
 import conveyor
 
-ROOT = Path(__file__).resolve().parents[2]
 LIBRARY = ROOT / "scripts/conveyor"
 REFERENCE_PAGE = ROOT / "workflow/templates/site/api_simulation.md"
 README = (LIBRARY / "README.md").read_text()

@@ -1,9 +1,5 @@
 """Captions and pages: every number in them comes from a table."""
 
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pandas as pd
 import pytest
@@ -48,12 +44,6 @@ def test_captions_name_harmonics_of_the_plate(orders, end):
     text = captions.make("fig01", {}, True, "title\n\nSome runs.\n", runs=table)
     assert text.startswith("Some runs.") and text.endswith(f"{end}\n")
     assert ("harmonic" in text) == bool(orders)
-
-
-def test_a_caption_without_numbers_of_its_own_imports_no_numba():
-    """There is one job per caption, and Numba would take most of its time."""
-    code = "import sys, conveyor_pipeline.make, conveyor_pipeline.figures.captions; sys.exit('numba' in sys.modules)"
-    subprocess.run([sys.executable, "-c", code], env=os.environ | {"PYTHONPATH": str(ROOT / "scripts")}, check=True)
 
 
 def test_plateau_and_exponent_of_fig_22():

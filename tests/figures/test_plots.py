@@ -3,11 +3,11 @@
 import itertools
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
+from project import ROOT
 
 from conveyor_pipeline.figures import style
 from conveyor_pipeline.paper.figures import fig08, fig15
@@ -78,13 +78,13 @@ def test_the_line_of_fig_15_follows_gravity_normal_to_the_track(inclination):
     assert line.get_ydata() == pytest.approx([0.3 + 2.0 * np.pi * 50.0 * fall, 0.3])
 
 
-def test_a_picture_does_not_wait_for_the_compiler():
-    """Most plots need only names and units of the library; `simulate` is imported on first use."""
+def test_a_picture_and_its_caption_do_not_wait_for_the_compiler():
+    """Most of them need only names and units of the library; `simulate` is imported on first use."""
     code = (
         "import sys, conveyor; from conveyor_pipeline import draw, make; "
+        "from conveyor_pipeline.figures import captions; "
         "from conveyor_pipeline.paper.figures import fig22; before = 'numba' in sys.modules; "
         "from conveyor import simulate; print(before, 'numba' in sys.modules, hasattr(conveyor, 'nothing'))"
     )
-    scripts = Path(__file__).resolve().parents[2] / "scripts"
-    run = subprocess.run([sys.executable, "-c", code], cwd=scripts, capture_output=True, text=True, check=True)
+    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT / "scripts", capture_output=True, text=True, check=True)
     assert run.stdout.split() == ["False", "True", "False"]

@@ -1,9 +1,9 @@
 """Errors in the sections of the floor machine."""
 
 import pytest
-from project import ROOT, merged, read_config
+from project import ROOT, assert_reported, merged, read_config
 
-from conveyor_pipeline.config import canonical, problems
+from conveyor_pipeline.config import canonical
 
 # An overlay, and a part of the expected message.
 WRONG = [
@@ -11,10 +11,8 @@ WRONG = [
         {"operating": {"acceleration": ["0.5 mm peak to peak"]}, "model": {"frequency": 100}},
         "0.5 mm zero to peak are 197.4 m/s², and 0.5 mm peak to peak are 98.7 m/s²",
     ),
-    ({"parts": {"friction": "2 mm"}}, "parts.friction = '2 mm' has a unit of another dimension; give %, or no unit"),
     ({"calibration": {"ranges": {"angle": [0.1, 16]}}}, "16° are 0.2793 rad"),
     ({"calibration": {"ranges": {"friction": [0.4, 0.1]}}}, "is reversed"),
-    ({"transit": {"parts": True}}, "transit.parts = True should be a number"),
     (
         {"transit": {"longest": 0.01}},
         "transit.longest = 0.01 s is shorter than the longest excitation cycle of model and drive.bounds (0.025 s)",
@@ -44,15 +42,13 @@ WRONG = [
     ({"parts": {"calibrated": True}}, "parts.calibrated needs measurements; name the config with"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
-    ({"drive": {"velocity": "2 cm"}}, "drive.velocity = '2 cm' has a unit of another dimension; give m/s"),
     ({"transit": {"acceleration": {"num": 1}}}, "has num: 1 for two ends; give more values, or a list such as [19.0]"),
 ]
 
 
 @pytest.mark.parametrize(("overlay", "message"), WRONG, ids=[message[:40] for _, message in WRONG])
 def test_an_error_names_key_and_remedy(overlay, message):
-    lines = problems(merged(read_config(), overlay))
-    assert any(message in line for line in lines), lines
+    assert_reported(overlay, message)
 
 
 def test_numbers_of_the_machine_may_have_a_unit():

@@ -4,24 +4,11 @@ import re
 
 import pytest
 import yaml
-from project import ROOT, Project, copy_project
+from project import ROOT, assert_refused, dry_run, load
 
 from conveyor import throw_number
-from conveyor_pipeline.config import ConfigError, load_config
-from conveyor_pipeline.config.files import DEFAULT_FILES
+from conveyor_pipeline.config import ConfigError
 from conveyor_pipeline.machine.operating.settings import key_of_amplitudes, transit_axis
-
-
-def load(overlay: dict) -> dict:
-    """The config of an overlay, as the Snakefile makes it."""
-    return load_config(DEFAULT_FILES, [], overlay).config
-
-
-def planned(overlay: dict, tmp_path, *targets: str):
-    """A dry run with an overlay."""
-    file = tmp_path / "mine.yaml"
-    file.write_text(yaml.safe_dump(overlay, sort_keys=False))
-    return Project(ROOT).called("--dry-run", *targets, "--configfile", str(file))
 
 
 def test_dimensionless_settings_fit_the_papers_conveyor():
@@ -120,7 +107,7 @@ def test_amplitudes_of_transit_that_do_not_fit_those_of_the_shares_are_refused(o
 def test_the_default_target_of_another_conveyor_is_its_machine(tmp_path):
     overlay = {"prefix": "mine", "model": {"friction": 0.2}}
     jobs = [
-        re.findall(r"^(\w+) +(\d+)$", planned(overlay, tmp_path, *target).stdout, re.MULTILINE)
+        re.findall(r"^(\w+) +(\d+)$", dry_run(overlay, tmp_path, *target).stdout, re.MULTILINE)
         for target in ((), ("machine",))
     ]
     default, machine = ({name for name, _ in found} - {"all", "machine"} for found in jobs)
@@ -142,18 +129,6 @@ def test_transit_and_advice_of_calibrated_parts_depend_on_the_calibration(built,
     assert ("transit", "advice") in edges
     for source in ("calibration", "calibrated"):
         assert {(source, "transit"), (source, "advice")} <= edges if is_calibrated else source not in rules.values()
-
-
-@pytest.fixture(scope="module")
-def project(tmp_path_factory) -> Project:
-    """A copy of the project without results."""
-    return Project(copy_project(tmp_path_factory.mktemp("refused")))
-
-
-def assert_refused(run, message: str) -> None:
-    assert run.returncode != 0
-    assert message in run.stdout
-    assert len(run.stdout.splitlines()) <= 10
 
 
 def test_braces_in_the_name_of_a_measured_file_or_its_folder_are_refused(project, tmp_path):

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from browser import chromium
-from project import read_config
+from project import ROOT, read_config
 from selenium import webdriver
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
@@ -26,7 +26,6 @@ from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.config.entries import resolve
 from conveyor_pipeline.pages.companion import build
 
-ROOT = Path(__file__).resolve().parents[2]
 CONFIG = read_config()
 MAPS = ("map_height", "map_amplitude", "map_velocity")
 SETTINGS = 100  # random ones, at which the accuracy is measured

@@ -102,7 +102,7 @@ def test_a_snakefile_in_a_folder_of_the_clone_gives_its_config(tmp_path):
     assert "output: results/mine/sweeps/few.parquet" in stdout
 
 
-@pytest.mark.parametrize("options", [("--report", "r.html"), ("--summary",), ("--unlock",), ("--rulegraph", "dot")])
+@pytest.mark.parametrize("options", [("--report", "r.html"), ("--summary",)])
 def test_a_module_needs_no_number_of_cores(tmp_path, options):
     """For options that run no job."""
     (tmp_path / "Snakefile").write_text(MODULE_OF_THE_PAPER + "use rule * from conveyor")

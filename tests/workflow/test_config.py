@@ -1,11 +1,9 @@
 """Errors of the config: early, readable, and with the names of the library."""
 
-import subprocess
-import sys
 import time
 
 import pytest
-from project import ROOT, merged, read_config
+from project import assert_reported, merged, read_config
 
 from conveyor import Conveyor, Start, ensemble, simulation
 from conveyor.methods import fixed_step
@@ -22,16 +20,11 @@ MINE = {"axes": {"acceleration": {"start": 30, "stop": 40, "num": 3}, "z0": [0.0
 # An overlay, and a part of the expected message.
 WRONG = [
     ({"companion": {"maps": ["none"]}}, "companion.maps[0] = 'none' is unknown"),
-    ({"companion": {"presets": {"mine": {"mas": 1.0}}}}, "companion.presets.mine.mas is an unknown key"),
     ({"sweep": {}}, "sweep is an unknown key; did you mean sweeps?"),
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
-    ({"model": {"mass": -0.1}}, "model.mass = -0.1 should be at least 1e-12 (kg)"),
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),
-    ({"model": {"stiffness": "5e5 N"}}, "model.stiffness = '5e5 N' has a unit of another dimension; give N/m^1.5"),
     ({"model": {"stiffness": "500 N/mm"}}, "'500 N/mm' is not in the unit of the contact law; give it in N/m^1.5"),
-    ({"model": {"mass": "0.3 mm"}}, "model.mass = '0.3 mm' has a unit of another dimension; give kg, g or mg"),
-    ({"model": {"angle": "20 grd"}}, "model.angle = '20 grd' has an unknown unit; give rad or deg"),
     ({"model": {"angle": "120 deg"}}, "model.angle = '120 deg' should be at most 1.5708 (rad)"),
     (
         {"model": {"angle": "25 Grad"}},
@@ -51,14 +44,7 @@ WRONG = [
         {"sweeps": {"mine": {"axes": {"stiffness": ["5e5 N/m"]}}}},
         "sweeps.mine.axes.stiffness[0] = '5e5 N/m' is not in the unit of the contact law; give it in N/m^1.5",
     ),
-    (
-        {"sweeps": {"mine": {"axes": {"z0": {"start": 0.0, "stop": "3 kg", "num": 3}}}}},
-        "sweeps.mine.axes.z0.stop = '3 kg' has a unit of another dimension; give m, mm",
-    ),
     ({"model": {"angle": "12"}}, "12° are 0.2094 rad"),
-    ({"model": {"damping": True}}, "model.damping = True should be a number (N s/m)"),
-    ({"model": {"z0": False}}, "model.z0 = False should be a number (m)"),
-    ({"model": {"damping": None}}, "model.damping = None should be a valid number (N s/m)"),
     ({"model": {"tension": "pull"}}, "model.tension = 'pull' should be 'allow', 'frictionless' or 'clip'"),
     ({"sweeps": {"mine": {"axes": {"z0": []}}}}, "sweeps.mine.axes.z0 = [] should have at least 1 item"),
     ({"sweeps": {"mine": {"axes": {}}}}, "sweeps.mine.axes = {} is empty"),
@@ -71,27 +57,17 @@ WRONG = [
         "axes.angle.stop = 12 should be at most 1.5708 (rad)",
     ),
     ({"sweeps": {"mine": {"axes": {"mass": [1.0e-3, -1.0]}}}}, "sweeps.mine.axes.mass[1] = -1.0 should be at least"),
-    ({"sweeps": {"mine": {"axes": {"accel": [30.0]}}}}, "sweeps.mine.axes.accel is an unknown key"),
     ({"sweeps": {"mine": {"axes": {"z0": {"start": 0.0}}}}}, "sweeps.mine.axes.z0.stop is missing"),
     ({"sweeps": {"mine": {"duration": 1.0}}}, "sweeps.mine.axes is missing"),
     ({"sweeps": {"mine": {**MINE, "model": {"z0": 1.0e-4}}}}, "sweeps.mine.model.z0 is an axis of this entry too"),
     ({"sweeps": {"mine": {**MINE, "duration": 0}}}, "sweeps.mine.duration = 0 should be more than 0 (s)"),
-    (
-        {"sweeps": {"mine": {**MINE, "duration": float("nan")}}},
-        "sweeps.mine.duration = nan should be a finite number",
-    ),
     ({"sweeps": {"mine": {**MINE, "needs": "speed"}}}, "sweeps.mine.needs = 'speed' should be 'feeding' or 'vertical'"),
     ({"sweeps": {"my sweep": MINE}}, "sweeps has the unknown name 'my sweep'; give a name of letters"),
     (
         {"sweeps": {"mine": {**MINE, "method": "euler", "step": 3.0e-7}}},
         "sweeps.mine.step = 3e-07 s does not divide its duration of 1 s; take 3.0000003e-07, or another duration",
     ),
-    (
-        {"sweeps": {"mine": {**MINE, "method": "euler", "step": 5.0e-3, "duration": 1.0e-3}}},
-        "sweeps.mine.step = 0.005 s",
-    ),
     ({"estimates": {"phase": {"last": 1}}}, "estimates.phase.last = 1 should be less than 1 (of the duration)"),
-    ({"estimates": {"phase": {"epsilon": 0.0}}}, "estimates.phase.epsilon = 0.0 should be at least 1e-15"),
     (
         {"figures": {"fig03": {"tables": {"euler": "sweeps/none"}}}},
         "figures.fig03.tables.euler = 'sweeps/none'",
@@ -103,7 +79,6 @@ WRONG = [
     ),
     ({"prefix": "a/b"}, "prefix = 'a/b' should be a folder name"),
     ({"prefix": "a\n"}, "prefix = 'a\\n' should be a folder name of at most 64"),
-    ({"prefix": "a" * 300}, "should be a folder name of at most 64"),
     # accepted by earlier versions, with silently wrong results
     ({"estimates": {"height": {"model": {"z0": "conveyor"}}}}, "estimates.height.perturb = 'z0' has no effect"),
     (
@@ -119,19 +94,14 @@ WRONG = [
         {"sweeps": {"heights": {"step": 0.1, "duration": 0.02}}},
         "sweeps.heights.step = 0.1 s is longer",
     ),
-    ({"sweeps": {"heights": {"step": 0.1}}}, "sweeps.heights.step = 0.1 s is too long for 50 Hz"),
     ({"sweeps": {"heights": {"step": 1.0e-12}}}, "sweeps.heights.step = 1e-12 s makes 1e+12 steps"),
-    ({"solver": {"step": 0.1}}, "solver.step (of sweeps.amplitudes) = 0.1 s is too long"),
+    ({"solver": {"step": 0.1}}, "solver.step (of sweeps.amplitudes) = 0.1 s is too long for 50 Hz"),
     ({"dimensions": {"portrait_euler": {"step": 3.0e-6}}}, "dimensions.portrait_euler.step = 3e-06"),
     ({"critical": {"edge": {"axes": {"z0": [0.0]}}}}, "critical.edge.axes.z0 is the scanned parameter"),
     ({"critical": {"edge": {"model": {"z0": 0.0}}}}, "critical.edge.model.z0 is the scanned parameter"),
     (
         {"figures": {"fig09": {"marks": {"critical_hight": 1.0}}}},
         "figures.fig09.marks.critical_hight is an unknown key; did you mean critical_height?",
-    ),
-    (
-        {"figures": {"fig09": {"settings": {"longest_period": 1}}}},
-        "figures.fig09.settings.longest_period is an unknown key",
     ),
     (
         {"figures": {"fig12": {"tables": {"euler": "sweeps/amplitudes"}}}},
@@ -147,7 +117,6 @@ WRONG = [
         {"dimensions": {"portrait": {"method": "euler"}}},
         "dimensions.portrait.estimator = 'box' follows the settled",
     ),
-    ({"critical": {"edge": {"scan": {"start": 1.0e-3}}}}, "'stop': 0.0005} is reversed: start is above stop"),
     (
         {"critical": {"edge": {"scan": [0.0, 2.0e-4, 1.0e-4]}}},
         "critical.edge.scan = [0.0, 0.0002, 0.0001] is not",
@@ -161,10 +130,6 @@ WRONG = [
     (
         {"signals": {"states": {"times": {"stop": 2.0}}}},
         "signals.states.times.stop = 2.0 s is beyond",
-    ),
-    (
-        {"regressions": {"height": {"bounds": {"A": [0.03, 0.0]}}}},
-        "regressions.height.bounds.A = [0.03, 0.0] is",
     ),
     (
         {"regressions": {"height": {"bounds": {"B": [-35.0, 0.0]}}}},
@@ -184,10 +149,6 @@ WRONG = [
         "sweeps.mine_euler is the name of two tables",
     ),
     (
-        {"sweeps": {"amplitudes_euler": MINE}},
-        "sweeps.amplitudes_euler is the name of two tables",
-    ),
-    (
         {
             "sweeps": {
                 "a": {**MINE, "methods": ["event", "semi_implicit_euler"]},
@@ -199,36 +160,22 @@ WRONG = [
     # settings that exclude each other
     ({"sweeps": {"amplitudes": {"method": "euler"}}}, "sweeps.amplitudes has both method and methods"),
     (
-        {"sweeps": {"mine": {**MINE, "method": "event", "step": 1.0e-6}}},
-        "sweeps.mine.step is not used by the method event",
-    ),
-    (
         {"signals": {"states": {"methods": ["event"], "step": 1.0e-6}}},
         "signals.states.step is not used by the method event",
     ),
-    (
-        {"dimensions": {"portrait_euler": {"method": "event", "step": 1.0e-6}}},
-        "dimensions.portrait_euler.step is not used by the method event",
-    ),
     ({"sweeps": {"mine": {**MINE, "step": 1.0e-6}}}, "sweeps.mine.step is not used by the method event"),
     # folders of the default results
-    *(
-        ({"prefix": name}, f"prefix = '{name}' is a folder of")
-        for name in ("sweeps", "logs", "claims", "shards", "docs", "Logs")
-    ),
+    ({"prefix": "sweeps"}, "prefix = 'sweeps' is a folder of"),
+    ({"prefix": "Logs"}, "prefix = 'Logs' is a folder of"),
     # tables and settings that the default config does not have there
     ({"figures": {"fig03": {"settings": {"acceleration": 40.0}}}}, "figures.fig03.settings.acceleration is an unknown"),
-    (
-        {"prefix": "mine", "model": {"static_friction": 0.1}},
-        "model has static_friction = 0.1 below friction = 0.15; give a larger static_friction, or leave it out",
-    ),
     (
         {"sweeps": {"mine": {"axes": {"friction": [0.1, 0.3]}, "model": {"static_friction": 0.2}}}},
         "sweeps.mine has static_friction = 0.2 below friction = 0.3",
     ),
     (
         {"orbits": {"model": {"static_friction": 0.1}}},
-        "orbits.model has static_friction = 0.1 below friction = 0.15",
+        "orbits.model has static_friction = 0.1 below friction = 0.15; give a larger static_friction, or leave it out",
     ),
     ({"model": {"inclination": 3.0}}, "model.inclination = 3.0 should be at most 1.4 (rad); angles are in radians"),
     (
@@ -240,12 +187,9 @@ WRONG = [
     ({"figures": {"fig03": {"tables": {"euler": "prefix/x"}}}}, "figures.fig03.tables.euler = 'prefix/x' is unknown"),
     ({1: {}}, "config has the key 1, which is not text"),
     ({"model": {0: None}}, "model has the key 0, which is not text; write decimal points, not commas"),
-    ({"model": {True: 1}}, "model has the key True, which is not text; put it in quotes"),
     ({"sweeps": {2024: MINE}}, "sweeps has the key 2024, which is not text; put it in quotes"),
     ({"model": None}, "model is empty; give keys below it, or delete it"),
     ({"prefix": 1}, "prefix = 1 is a number, not text; put it in quotes"),
-    ({"model": {"friction": -0.1}}, "model.friction = -0.1 should be at least 0"),
-    ({"solver": {True: 1}}, "solver has the key True, which is not text"),
     (
         {"sweeps": {"heights": {"axes": {"z0": {"num": 1.0e12}}}}},
         "sweeps.heights.axes.z0.num = 1000000000000 should be at most 1e+06",
@@ -263,9 +207,7 @@ WRONG = [
 
 @pytest.mark.parametrize(("overlay", "message"), WRONG, ids=[message[:40] for _, message in WRONG])
 def test_an_error_names_key_and_remedy(overlay, message):
-    lines = problems(merged(CONFIG, overlay))
-    assert any(message in line for line in lines), lines
-    assert all(line.isprintable() for line in lines)
+    assert_reported(overlay, message)
 
 
 def test_a_fault_of_the_model_is_reported_once_for_all_entries_that_inherit_it():
@@ -288,14 +230,18 @@ def test_configs_are_valid():
         {"sweeps": {"mine": MINE, "mine_tighter": MINE}},
         {"critical": {"edge_euler": {"step": 1.0e-6}}},
         {"figures": {"fig03": {"tables": {"euler": "sweeps/amplitudes"}, "marks": {"critical_acceleration": 45}}}},
-        {"prefix": "mine_1"},
         {"model": {"static_friction": 0.15}},
         {"prefix": "mine", "model": {"static_friction": 0.2}},
         {"prefix": "mine", "model": {"friction": 0.0, "static_friction": 0.1}},
+        {"figures": {"fig03": {"section": r"$\dot{x}_p$ über $\hat{a}$ {braces} {}"}}},
+        {"certificates": {"doublings": 4.0}, "solver": {"settling": 2.0e4}},
+        {"sweeps": {"amplitudes": {"axes": {"acceleration": {"start": 20, "num": 20.0}}}}},
+        {"prefix": "a-b_C1"},
+        {"sweeps": {"one": {"axes": {"z0": ["conveyor"]}}}},
     ],
     ids=str,
 )
-def test_names_and_methods_that_do_not_clash_are_valid(overlay):
+def test_a_valid_overlay_has_no_errors(overlay):
     assert problems(merged(CONFIG, overlay)) == []
 
 
@@ -394,9 +340,3 @@ def test_tables_of_the_normal_motion_do_not_depend_on_the_motion_along_the_track
 def test_an_axis_along_the_track_keeps_the_parameters_along_it():
     entry = {"axes": {"static_friction": [0.05]}, "model": {"friction": 0.02}, "needs": "vertical"}
     assert resolve(merged(CONFIG, {"sweeps": {"mine": entry}}), "sweeps", "mine")["model"]["friction"] == 0.02
-
-
-def test_parameters_are_imported_without_numpy():
-    code = "import sys; import conveyor.parameters; print('numpy' in sys.modules)"
-    run = subprocess.run([sys.executable, "-c", code], cwd=ROOT / "scripts", capture_output=True, text=True)
-    assert run.stdout.strip() == "False", run.stderr

@@ -14,6 +14,7 @@ from project import (
     IN_PROCESS_OPTIONS,
     ROOT,
     Project,
+    assert_refused,
     call_snakemake,
     config_file,
     copy_project,
@@ -82,13 +83,6 @@ def test_keys_are_in_the_order_of_the_first_file(tmp_path):
     assert list(loaded.config["figures"]) == list(read_config()["figures"])
 
 
-def test_a_config_is_loaded_from_any_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    loaded = load_config(DEFAULT_FILES, [], {})
-    assert loaded.is_paper
-    assert "amplitudes_euler" in loaded.config["sweeps"]
-
-
 def test_a_config_without_files_is_the_overlay_of_a_module(tmp_path):
     """Another workflow passes its config directly, which has the effect of a file with the same content."""
     overlay = {"prefix": "mine", "model": {"frequency": 100, "mass": 1.0e-3}, "sweeps": {"one": {"axes": {"z0": [0]}}}}
@@ -114,19 +108,6 @@ def test_texts_of_numbers_are_numbers():
     assert config["sweeps"]["one"]["axes"] == {"z0": [0.0, "conveyor"]}
 
 
-def test_an_error_has_six_lines():
-    overlay = {"sweeps": {"mine": {"axes": {name: [-9.0] for name in ("mass", "angle", "z0", "vz0", "friction")}}}}
-    with pytest.raises(ConfigError, match="The config cannot be used") as error:
-        load_config(DEFAULT_FILES, [], overlay)
-    assert len(str(error.value).splitlines()) <= 6
-
-
-@pytest.fixture(scope="module")
-def project(tmp_path_factory) -> Project:
-    """A copy of the project without results."""
-    return Project(copy_project(tmp_path_factory.mktemp("refused")))
-
-
 def seconds_of_children() -> float:
     """Processor time of child processes (s), which does not depend on the load of the machine."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -143,32 +124,12 @@ def test_snakemake_refuses_in_three_seconds_and_ten_lines(project):
     assert "Building DAG" not in run.stdout
 
 
-def assert_refused(run, message: str) -> None:
-    assert run.returncode != 0
-    assert message in run.stdout
-    assert len(run.stdout.splitlines()) <= 10
-
-
-def test_snakemake_names_file_and_line_of_an_overlay(project, tmp_path):
-    file = tmp_path / "mine.yaml"
-    file.write_text("model: {mass: 0.1}\nmodel: {mass: 0.2}\n")
-    run = project.called("--dry-run", "figures/fig22.pdf", "--configfile", str(file))
-    assert_refused(run, "mine.yaml:2: is not valid YAML: found duplicate key")
-
-
 def test_snakemake_names_file_line_and_key_of_a_wrong_value(project, tmp_path):
     file = tmp_path / "mine.yaml"
     file.write_text("prefix: mine\nsweeps:\n  one:\n    axes:\n      z0: [0.0, 1e-4, 99]\n  two: {duration: 1}\n")
     run = project.called("--dry-run", "figures/fig22.pdf", "--configfile", str(file))
     assert_refused(run, "mine.yaml:5: sweeps.one.axes.z0[2] = 99 should be at most 10 (m)")
     assert "mine.yaml:6: sweeps.two.axes is missing" in run.stdout
-
-
-def test_values_of_the_command_line_are_checked(project):
-    run = project.called("--dry-run", "figures/fig22.pdf", "--config", "model={mass: -3.0}", "prefix=[x]")
-    assert "Traceback" not in run.stdout
-    assert_refused(run, "model.mass = '-3.0' should be at least 1e-12 (kg)")
-    assert "prefix = ['x'] should be a valid string" in run.stdout
 
 
 def test_nested_values_of_the_command_line_are_an_overlay(project, tmp_path):

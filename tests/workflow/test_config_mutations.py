@@ -139,21 +139,6 @@ def test_another_order_or_spelling_is_valid_and_equivalent():
     assert repr(canonical(merged(CONFIG, other))) == repr(canonical(CONFIG))
 
 
-@pytest.mark.parametrize(
-    "overlay",
-    [
-        {"figures": {"fig03": {"section": r"$\dot{x}_p$ über $\hat{a}$ {braces} {}"}}},
-        {"certificates": {"doublings": 4.0}, "solver": {"settling": 2.0e4}},
-        {"sweeps": {"amplitudes": {"axes": {"acceleration": {"start": 20, "num": 20.0}}}}},
-        {"prefix": "a-b_C1"},
-        {"sweeps": {"one": {"axes": {"z0": ["conveyor"]}}}},
-    ],
-    ids=str,
-)
-def test_a_valid_config_has_no_errors(overlay):
-    assert problems(merged(CONFIG, overlay)) == []
-
-
 @pytest.mark.parametrize("config", [None, [], "model", 3], ids=repr)
 def test_a_section_that_is_not_a_mapping_is_reported(config):
     assert problems(config) == [f"config = {config!r} should be a valid mapping"]

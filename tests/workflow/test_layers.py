@@ -6,14 +6,7 @@ from importlib import import_module
 import pytest
 from project import ROOT
 
-from conveyor_pipeline.common import source_hash
 from conveyor_pipeline.config.stages import SHARED, STAGES, declared
-
-MODULES = {
-    ".".join(path.relative_to(source_hash.SCRIPTS).with_suffix("").parts): path
-    for path in source_hash.SCRIPTS.rglob("*.py")
-    if path.name != "__init__.py"
-}
 
 
 @pytest.mark.parametrize(("stage", "package"), STAGES.items())
@@ -35,17 +28,6 @@ def test_no_two_stages_declare_the_same_name(mapping):
     settings = [import_module(f"{package}.settings") for package in (*STAGES.values(), *SHARED)]
     names = [name for module in settings for name in getattr(module, mapping, {})]
     assert len(names) == len(set(names)) == len(declared(mapping)) > 10
-
-
-def test_no_script_has_the_name_of_a_module_of_the_library():
-    library = {module.rpartition(".")[2] for module in MODULES if module.startswith("conveyor.")}
-    # Plots and the numbers of captions have the names of their figures; the config has a model, too.
-    others = {
-        module.rpartition(".")[2]
-        for module in MODULES
-        if not re.match(r"conveyor\.|conveyor_pipeline\.(config|\w+\.figures|\w+\.caption_numbers)\.", module)
-    }
-    assert not library & others
 
 
 @pytest.mark.parametrize("file", sorted((ROOT / "workflow/rules").rglob("*.smk")), ids=lambda file: file.stem)

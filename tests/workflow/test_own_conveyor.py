@@ -4,7 +4,7 @@ import re
 
 import pytest
 import yaml
-from project import ROOT, Project, merged, read_config
+from project import ROOT, dry_run, load, merged, read_config
 
 from conveyor_pipeline.config import ConfigError, load_config, problems
 from conveyor_pipeline.config.files import DEFAULT_FILES
@@ -16,18 +16,6 @@ EXAMPLES = {
     if path.stem not in ("measured", "accelerometer")
 }
 HARMONIC = {"order": 2, "along": 0.1, "along_phase": 0.0, "normal": 0.1, "normal_phase": 0.0}
-
-
-def load(overlay: dict) -> dict:
-    """The config of an overlay, as the Snakefile makes it."""
-    return load_config(DEFAULT_FILES, [], overlay).config
-
-
-def planned(overlay: dict, tmp_path, *targets: str):
-    """A dry run with an overlay."""
-    file = tmp_path / "mine.yaml"
-    file.write_text(yaml.safe_dump(overlay, sort_keys=False))
-    return Project(ROOT).called("--dry-run", *targets, "--configfile", str(file))
 
 
 @pytest.mark.parametrize(
@@ -72,14 +60,14 @@ def test_axes_of_the_paper_are_what_the_config_says(name):
 def test_figures_of_the_paper_are_drawn_for_another_conveyor_if_named(tmp_path):
     figures = [f"fig{number:02d}" for number in range(1, 25)]
     targets = [f"figures/mine/{figure}.pdf" for figure in figures]
-    run = planned({"prefix": "mine", "model": {"friction": 0.2}}, tmp_path, *targets)
+    run = dry_run({"prefix": "mine", "model": {"friction": 0.2}}, tmp_path, *targets)
     assert run.returncode == 0, run.stdout
     for figure in figures:
         assert f"output: figures/mine/{figure}.pdf" in run.stdout
 
 
 def test_a_figure_that_takes_no_harmonics_says_so(tmp_path):
-    run = planned({"prefix": "mine", "model": {"harmonics": [HARMONIC]}}, tmp_path, "figures/mine/sensitivity.pdf")
+    run = dry_run({"prefix": "mine", "model": {"harmonics": [HARMONIC]}}, tmp_path, "figures/mine/sensitivity.pdf")
     assert run.returncode != 0
     assert "figures/mine/sensitivity.pdf cannot be made with this config: its bifurcations" in run.stdout
 
@@ -92,7 +80,7 @@ def test_a_figure_that_takes_no_harmonics_says_so(tmp_path):
     }.items(),
 )
 def test_what_is_about_the_papers_conveyor_is_refused_for_another_one(target, subject, tmp_path):
-    run = planned({"prefix": "mine", "model": {"friction": 0.2}}, tmp_path, target)
+    run = dry_run({"prefix": "mine", "model": {"friction": 0.2}}, tmp_path, target)
     assert run.returncode != 0
     assert f"{subject} is about the paper's conveyor, but this config changes the model" in run.stdout
 

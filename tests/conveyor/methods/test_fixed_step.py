@@ -17,6 +17,7 @@ from conveyor.solver.status import NOT_FINITE, OK
 
 # A contact that stays closed (p = 1, a_z < g), smooth in time.
 LINEAR = Conveyor(acceleration=30.0, exponent=1.0, stiffness=3e3, psi0=0.4)
+TILTED = {"inclination": 0.2, "phase_shift": 0.7}
 
 
 def run_one(parameters, *arguments):
@@ -64,9 +65,17 @@ def slow_integrate(parameters, step, n_steps, method):
 
 
 @pytest.mark.parametrize("method", fixed_step.METHODS[1:])
-@pytest.mark.parametrize("tension", ["allow", "frictionless", "clip"])
-@pytest.mark.parametrize("exponent", [1.5, 1.0, 1.8])
-@pytest.mark.parametrize("track", [{}, {"inclination": 0.2, "phase_shift": 0.7}], ids=["level", "tilted"])
+@pytest.mark.parametrize(
+    ("tension", "exponent", "track"),
+    [
+        ("allow", 1.5, {}),
+        ("allow", 1.8, TILTED),
+        ("frictionless", 1.0, {}),
+        ("frictionless", 1.5, TILTED),
+        ("clip", 1.8, {}),
+        ("clip", 1.0, TILTED),
+    ],
+)
 def test_compiled_loop_agrees_with_the_plain_loop(method, tension, exponent, track):
     """Over two impacts the compiled loop differs from the plain loop only by rounding; Euler: test_fixed_step_lanes."""
     stiffness = {1.0: 3e3, 1.5: 5e5, 1.8: 5e6}[exponent]

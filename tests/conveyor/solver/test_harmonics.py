@@ -61,9 +61,14 @@ def test_dop853_agrees(seed):
     start = Start(z=generator.uniform(2e-4, 1e-3))
     run = simulate(conveyor, start, duration=DURATION, tolerance=1e-13)
     assert run.impacts > 0
-    sample = run.sample(times)
-    for name, expected in reference_states(conveyor, start, times).items():
-        assert np.abs(sample[name] - expected).max() < 1e-9 * np.abs(expected).max()
+    sample, expected = run.sample(times), reference_states(conveyor, start, times)
+    for name, values in expected.items():
+        assert np.abs(sample[name] - values).max() < 1e-9 * np.abs(values).max()
+    height, rise, _ = np.array([plate_at(conveyor, t) for t in times]).T
+    depth = height - expected["z"]
+    force = conveyor.stiffness * np.maximum(depth, 0.0) ** exponent + conveyor.damping * (rise - expected["vz"])
+    force[depth < 0.0] = 0.0
+    assert np.abs(sample["contact_force"] - force).max() < 1e-6 * np.abs(force).max()
 
 
 @COMPILES
@@ -80,23 +85,6 @@ def test_runge_kutta_converges_to_a_part_that_rides():
     ]
     assert errors[2] < 1e-9 * abs(exact.vz_end)
     assert errors[1] / errors[2] > 8.0 or errors[1] < 1e-13
-
-
-@COMPILES
-def test_energy_balance():
-    """Without damping, the plate's work is the gain of the energies of motion, height and spring."""
-    conveyor = Conveyor(acceleration=40.0, damping=0.0, harmonics=TWO)
-    run = simulate(conveyor, Start(z=3e-4), duration=0.05, tolerance=1e-13)
-    edges = np.concatenate([[0.0], np.unique(run.events["time"]), [0.05]])
-    nodes, weights = np.polynomial.legendre.leggauss(60)
-    times = (0.5 * (edges[1:] + edges[:-1])[:, None] + 0.5 * np.diff(edges)[:, None] * nodes).ravel()
-    sample, plate = run.sample(times), plate_motion(conveyor, times)
-    work = np.sum((0.5 * np.diff(edges)[:, None] * weights).ravel() * sample["contact_force"] * plate["vz"])
-    ends, plate = run.sample(np.array([0.0, 0.05])), plate_motion(conveyor, np.array([0.0, 0.05]))
-    depth = np.maximum(plate["z"] - ends["z"], 0.0)
-    energy = conveyor.mass * (0.5 * ends["vz"] ** 2 + conveyor.gravity * ends["z"])
-    energy += conveyor.stiffness / 2.5 * depth**2.5
-    assert work == pytest.approx(energy[1] - energy[0], rel=1e-7)
 
 
 def test_plate_moves_as_defined():
@@ -168,15 +156,6 @@ def test_no_motion_fails(waves, acceleration, angle, exponent, tension, phase, z
     assert gap.max() <= run.max_gap + 1e-12
     assert (sample["contact_force"][gap > 1e-12] == 0.0).all()
     assert gap.min() > -3e-3
-
-
-@COMPILES
-def test_many_runs_agree_with_single_runs():
-    conveyor, heights = Conveyor(acceleration=42.0, harmonics=TWO), [0.0, 2e-4, 4e-4]
-    runs = sweep(parameter_table(conveyor, z0=heights), duration=0.2)
-    for z, end, velocity in zip(heights, runs.z_end, runs.mean_velocity, strict=True):
-        one = simulate(conveyor, Start(z=z), duration=0.2)
-        assert (one.z_end, one.mean_velocity()) == (end, velocity)
 
 
 @COMPILES

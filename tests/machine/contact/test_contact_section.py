@@ -5,7 +5,7 @@ import math
 import pandas as pd
 import pytest
 import yaml
-from project import ROOT, Project, merged, read_config
+from project import ROOT, dry_run, merged, read_config
 
 from conveyor import Conveyor, damping_of, hertz_stiffness, restitution
 from conveyor.materials import ELASTOMERS, HARDNESS, materials
@@ -161,7 +161,4 @@ def test_without_advice_nothing_is_compared():
 
 def test_the_target_machine_has_the_page_only_for_a_config_with_a_contact(tmp_path):
     for overlay, expected in ((MINE, True), ({"prefix": "mine", "model": MODEL}, False)):
-        file = tmp_path / "mine.yaml"
-        file.write_text(yaml.safe_dump(overlay, sort_keys=False))
-        plan = Project(ROOT).called("--dry-run", "machine", "--configfile", str(file))
-        assert ("results/mine/contact.md" in plan.stdout) == expected
+        assert ("results/mine/contact.md" in dry_run(overlay, tmp_path, "machine").stdout) == expected

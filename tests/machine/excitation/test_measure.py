@@ -16,6 +16,9 @@ from conveyor_pipeline.machine.excitation.comparison import NO, PERHAPS, WITH, W
 DRIVE = Drive(harmonics=((2, 0.05, 0.7, 0.08, -2.5), (3, 0.02, 3.0, 0.0, 0.0)), cycles=200.0, noise=0.1)
 
 
+TEMPLATE = (ROOT / "workflow/templates/excitation.md").read_text()
+
+
 def tables_of(drive: Drive) -> dict[str, pd.DataFrame]:
     """The tables as the rule writes them."""
     settings = {"measured": "mine.csv", **drive.settings}
@@ -131,6 +134,11 @@ def comparison(slow: float, median: float, stderr: float = 1e-4) -> pd.DataFrame
     return table
 
 
+def page_of(made: dict[str, pd.DataFrame], compared: pd.DataFrame) -> str:
+    """The page on the tables of a drive and on a comparison."""
+    return page.make(TEMPLATE, made["parameters"], made["harmonics"], made["quality"], compared, "mine")
+
+
 @pytest.mark.parametrize(
     ("slow", "median", "stderr", "expected"),
     [
@@ -163,9 +171,7 @@ def test_the_change_is_relative_to_the_drive_without_harmonics():
     ],
 )
 def test_the_first_line_says_whether_the_harmonics_matter(made, slow, first):
-    template = (ROOT / "workflow/templates/excitation.md").read_text()
-    names = ("parameters", "harmonics", "quality")
-    text = page.make(template, *(made[name] for name in names), comparison(slow, 0.04), "mine")
+    text = page_of(made, comparison(slow, 0.04))
     assert text.splitlines()[0] == first
     assert "50 Hz" in text and "40 m/s²" in text and "| 2 | 5" in text and "nan" not in text.lower()
     assert "the parts differ (friction 15 %)" in text
@@ -173,15 +179,11 @@ def test_the_first_line_says_whether_the_harmonics_matter(made, slow, first):
 
 def test_what_the_noise_could_hide_is_on_the_page_and_part_of_the_verdict():
     """A true second harmonic of 3 % in red noise is not found, but lies below the share that the page names."""
-    template = (ROOT / "workflow/templates/excitation.md").read_text()
-    names = ("parameters", "harmonics", "quality")
     drive = replace(DRIVE, harmonics=((2, 0.03, 1.0, 0.03, 2.0),), noise=6.0, colour=0.9, cycles=30.0)
     noisy, quiet = tables_of(drive), tables_of(replace(DRIVE, harmonics=()))
     hidden = page.hidden_shares(noisy["harmonics"]).iloc[0]
     assert not noisy["harmonics"].above_noise[0] and hidden.along > 0.03 and hidden.normal > 0.03
-    text, clean = (
-        page.make(template, *(made[name] for name in names), comparison(0.01, 0.04), "mine") for made in (noisy, quiet)
-    )
+    text, clean = (page_of(made, comparison(0.01, 0.04)) for made in (noisy, quiet))
     assert text.startswith("# Measured drive: whether the harmonics matter here is not known")
     assert "The noise could hide harmonics that matter" in text
     assert clean.startswith("# Measured drive: the harmonics do not matter here") and "| 2 | < 0." in clean
@@ -189,7 +191,5 @@ def test_what_the_noise_could_hide_is_on_the_page_and_part_of_the_verdict():
 
 def test_a_plate_that_throws_backwards_is_named():
     made = tables_of(replace(DRIVE, phase_shift=3.0))
-    template = (ROOT / "workflow/templates/excitation.md").read_text()
-    names = ("parameters", "harmonics", "quality")
-    text = page.make(template, *(made[name] for name in names), comparison(0.01, 0.04), "mine")
+    text = page_of(made, comparison(0.01, 0.04))
     assert "normal to it by 172°: **the plate throws backwards**" in " ".join(text.split())

@@ -255,16 +255,6 @@ def test_where_motions_do_not_converge_a_few_initial_conditions_are_followed_to_
     assert np.flatnonzero(labels.state == "undecided").tolist() == [starts + shares.TRIED - 1]
 
 
-def test_the_standard_error_agrees_with_repeated_draws():
-    drawn = [
-        shares.shares_at(np.array([40.0]), {**BOX, "seed": seed}, followed=2).set_index("state").loc["first"]
-        for seed in range(30)
-    ]
-    share = np.array([row.share for row in drawn])
-    # A standard deviation from thirty draws is known to an eighth.
-    assert share.std(ddof=1) == pytest.approx(np.mean([row.stderr for row in drawn]), rel=0.4)
-
-
 def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
     """Lengths in g/ω², velocities in g/ω: another frequency, gravity and mass, with matching damping and stiffness."""
     paper = Conveyor()

@@ -51,10 +51,6 @@ def test_never_is_an_answer(holds):
     assert math.isnan(onset(np.arange(float(len(holds))), holds))
 
 
-def test_one_amplitude_of_many_is_not_an_onset():
-    assert math.isnan(onset(AMPLITUDES, AMPLITUDES == 42.0))
-
-
 def numbers(quantities):
     """The values of the quantities of a finding."""
     return tuple(quantities.values())
@@ -442,14 +438,6 @@ def test_a_motion_returns_after_its_period():
     period_3 = np.tile([1.0, -0.5, 0.2], 43)[:128]
     assert about_chaos.closest_return(strobes(0.0, period_3)) == (0.0, 3)
     assert about_chaos.closest_return(strobes(0.0, np.tile(np.arange(65.0), 2)[:128]))[0] > about_chaos.CLOSE
-
-
-def test_share_without_a_period():
-    noise = strobes(0.0, np.random.default_rng(1).normal(size=128))
-    regular = strobes(1e-4, np.tile([1.0, -1.0], 64))
-    assert numbers(about_chaos.no_period(**both(pd.concat([noise, regular])), horseshoes=NOT_PROVED).converged) == (
-        0.5,
-    )
 
 
 def test_a_motion_that_returns_only_to_a_fifth_of_its_extent_has_no_period():

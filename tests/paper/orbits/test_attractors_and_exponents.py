@@ -10,21 +10,7 @@ from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.paper.orbits import branches, exponents, seeds, strobes
 from conveyor_pipeline.paper.orbits.limits import SIGNIFICANT
 
-MODEL = {
-    "acceleration": 40.0,
-    "angle": 0.20943951023931956,
-    "frequency": 50.0,
-    "psi0": 0.0,
-    "stiffness": 5e5,
-    "damping": 0.3,
-    "friction": 0.15,
-    "mass": 0.7e-3,
-    "exponent": 1.5,
-    "gravity": 9.81,
-    "tension": "allow",
-    "z0": 0.0,
-    "vz0": 0.0,
-}
+MODEL = read_config()["model"]
 SETTINGS = {
     "acceleration": {"start": 70.0, "stop": 90.0, "num": 3},
     "transient": 300,

@@ -96,14 +96,6 @@ def test_strobes_are_the_states_after_the_first_cycles(monkeypatch, side_by_side
                 np.testing.assert_array_equal(strobes[k, cycles - 1], shorter.states[0])
 
 
-@pytest.mark.parametrize("cycles", [1, 2])
-def test_flights_count_from_the_first_whole_cycle_on(cycles):
-    parameters = on_map(80.0, 40)
-    found = together(parameters, cycles)
-    assert found.flights.max() > 0.5 / 50.0
-    assert_same(found, one_by_one(parameters, cycles))
-
-
 def test_failures_keep_their_row_and_disturb_nobody():
     calm = on_map(40.0, 24)
     parameters = calm.copy()
