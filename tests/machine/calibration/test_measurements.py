@@ -1,5 +1,6 @@
 """Files of measurements: good ones in several spellings, and bad ones, each rejected with its line and a remedy."""
 
+import math
 import re
 
 import pytest
@@ -144,6 +145,43 @@ def test_optional_columns_have_defaults_and_lines_are_those_of_the_file():
     assert (one.sd, one.before, one.duration, one.changed) == (None, 2.0, 1.0, {"z0": 1e-4})
     assert (two.sd, two.before, two.changed) == (0.001, 1.0, {"frequency": 61.0})
     assert three == (6, 50.0, 0.06, None, 1.0, 1.0, {})
+
+
+def test_parameters_may_have_their_unit_in_the_header():
+    text = (
+        "acceleration,velocity,frequency (Hz),inclination (deg),z0 [mm]\n30,0.02,50,1,0.3\n40,0.05,60,,\n50,0.06,,,\n"
+    )
+    first, second, _ = parse(text)
+    assert first.changed == pytest.approx({"frequency": 50.0, "inclination": math.radians(1.0), "z0": 3e-4})
+    assert second.changed == {"frequency": 60.0}
+    for header, fault in {
+        "frequency (rpm)": "states frequency in 'rpm'; give it in Hz, without the unit in the header",
+        "mass (g)": "states mass in 'g'; give it in kg",
+        "static_friction": "state it as model.static_friction",
+    }.items():
+        with pytest.raises(TableError) as error:
+            parse(f"{HEAD},{header}\n{GOOD.replace(chr(10), ',1' + chr(10))}")
+        assert fault in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "durations"),
+    [
+        ("26;37;1,025\n36;39;1,110\n56;41;1,204\n", [1.025, 1.11, 1.204]),
+        ("26;37;2\n36;39;1,110\n56;41;1,204\n", None),
+        ("26\t37\t1,025\n36\t39\t1,110\n56\t41\t1,204\n", None),
+        ("26.5\t37\t1,025\n36\t39\t1,110\n56\t41\t1,204\n", [1025.0, 1110.0, 1204.0]),
+    ],
+    ids=["semicolons", "beside whole numbers", "tabs", "points"],
+)
+def test_a_comma_before_three_digits_is_decimal_for_sure_or_refused(text, durations):
+    separator = ";" if ";" in text else "\t"
+    text = separator.join(["acceleration", "velocity (mm/s)", "duration"]) + "\n" + text
+    if durations:
+        assert [row.duration for row in parse(text)] == durations
+    else:
+        with pytest.raises(TableError, match=r"has the number 1,\d{3}, which may be 1\d{3} or 1\.\d{3}"):
+            parse(text)
 
 
 def test_harmonics_make_the_plate_faster():

@@ -541,6 +541,12 @@ def test_thousands_have_separators():
         np.testing.assert_allclose(found.readings, READINGS, atol=6e-5)
 
 
+def test_many_whole_numbers_with_and_without_commas_have_thousands():
+    rows = [f"{t:.0f};{x:,.0f};{z:,.0f}" for t, (x, z) in zip(1e6 * TIMES, 1000.0 * READINGS.T, strict=True)]
+    found = check("\n".join(["time;x;z", *rows, ""]), {"mount": PURE.mount, "unit": "mm/s²", "time_unit": "µs"})
+    np.testing.assert_allclose(found.readings, READINGS, atol=6e-4)
+
+
 def test_compressed_files_and_other_encodings_are_read(tmp_path):
     text = text_of(TIMES, READINGS, header="time (s),x (m/s²),z (m/s²)")
     for name, content in {

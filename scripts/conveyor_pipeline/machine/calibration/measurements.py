@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from statistics import median
 from typing import Any, NamedTuple
 
+from conveyor.parameters import UNITS
+
 # Columns beside the parameters of the model: unit, and the smallest and largest plausible value.
 COLUMNS = {
     "acceleration": ("m/s²", 0.0, 1e4),
@@ -30,7 +32,8 @@ HEADER_UNITS = {
     **dict.fromkeys(("mm/s²", "mm/s^2", "mm/s2"), ("m/s²", 0.001)),
     "g": ("m/s²", 9.80665),
     **{"m/s": ("m/s", 1.0), "cm/s": ("m/s", 1e-2), "mm/s": ("m/s", 1e-3), "m/min": ("m/s", 1.0 / 60.0)},
-    **{"s": ("s", 1.0), "ms": ("s", 1e-3)},
+    **{"s": ("s", 1.0), "ms": ("s", 1e-3), "Hz": ("Hz", 1.0), "kg": ("kg", 1.0), "m": ("m", 1.0), "mm": ("m", 1e-3)},
+    **{"rad": ("rad", 1.0), "deg": ("rad", math.pi / 180.0), "°": ("rad", math.pi / 180.0)},
 }
 EXAMPLE = "acceleration,velocity"
 MOST_ROWS = 1000
@@ -68,6 +71,8 @@ def unknown_column(name: str, known: Mapping) -> str:
     """Fault and remedy of a column with an unknown name."""
     if not name:
         return "has a column without a name; name it, or delete it"
+    if name == "static_friction":
+        return "has the column static_friction, which is one for all lines; state it as model.static_friction"
     if name in CALIBRATED:  # the others are known
         remedy = f"delete the column, or take {name} out of calibration.parameters"
         return f"has the column {name}, but the calibration searches one {name} for all lines; {remedy}"
@@ -82,9 +87,9 @@ def header_faults(names: list[str], units: list[str], known: Mapping) -> Iterato
     yield from (f"has the column {name} twice; keep one" for name in sorted(set(names)) if names.count(name) > 1)
     yield from (f"has no column {name} ({COLUMNS[name][0]}); add it" for name in REQUIRED if name not in names)
     for name, unit in zip(names, units, strict=True):
-        expected = COLUMNS[name][0] if name in COLUMNS else ""
+        expected = COLUMNS[name][0] if name in COLUMNS else UNITS.get(name)
         if unit and name in known and HEADER_UNITS.get(unit, ("", 0.0))[0] != expected:
-            yield f"states {name} in {unit!r}; give it in {expected or 'the SI unit'}, without the unit in the header"
+            yield f"states {name} in {unit!r}; give it in {expected}, without the unit in the header"
 
 
 def value_fault(name: str, value: float, interval: tuple[float, float]) -> str | None:
@@ -136,8 +141,8 @@ def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tuple
     return [
         (
             row.line,
-            f"velocity = {row.velocity:g} m/s is impossible, because the plate moves at most at {bound:.3g} m/s; "
-            f"{remedy}{more}",
+            f"velocity = {row.velocity:g} m/s is impossible, because the plate moves at most at {bound:.3g} m/s "
+            f"with {row.changed.get('frequency', model['frequency']):g} Hz; {remedy}{more}",
         )
     ]
 
