@@ -13,7 +13,7 @@ from conveyor_pipeline.common.csv_table import TableError, read_text
 from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
 from conveyor_pipeline.machine.excitation import measure
-from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY, turn
+from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY, UNITS, turn
 from conveyor_pipeline.machine.excitation.sample_times import EVEN, ROUNDED, STAMPED, resolve
 
 PURE = Drive(cycles=100.0, rate=1600.0, noise=0.1, bias=(0.0, 0.0), mount=0.2)
@@ -542,9 +542,20 @@ def test_thousands_have_separators():
 
 
 def test_many_whole_numbers_with_and_without_commas_have_thousands():
-    rows = [f"{t:.0f};{x:,.0f};{z:,.0f}" for t, (x, z) in zip(1e6 * TIMES, 1000.0 * READINGS.T, strict=True)]
-    found = check("\n".join(["time;x;z", *rows, ""]), {"mount": PURE.mount, "unit": "mm/s²", "time_unit": "µs"})
-    np.testing.assert_allclose(found.readings, READINGS, atol=6e-4)
+    rows = [f"{t:.0f};{x:,.0f};{z:,.0f}" for t, (x, z) in zip(1e6 * TIMES, READINGS.T / UNITS["mg"], strict=True)]
+    found = check("\n".join(["time;x;z", *rows, ""]), {"mount": PURE.mount, "unit": "mg", "time_unit": "µs"})
+    np.testing.assert_allclose(found.readings, READINGS, atol=6e-3)
+
+
+@pytest.mark.parametrize(("header", "unit"), [("time", 1.0), ("time", 1e-3), ("time (ms)", 1e-3), ("t", 1e-6)])
+def test_a_rate_that_contradicts_the_times_of_the_file_is_refused(header, unit):
+    text = text_of(TIMES / unit, READINGS, header=f"{header},x,z")
+    rate = (len(TIMES) - 1) / np.ptp(TIMES)
+    found = check(text, {**PURE.settings, "rate": 1.02 * rate})
+    assert found.sampling == "rate"
+    with pytest.raises(TableError) as error:
+        check(text, {**PURE.settings, "rate": 0.5 * rate})
+    assert f"with {rate:.4g} samples per second, but excitation.rate is {0.5 * rate:g}" in str(error.value)
 
 
 def test_compressed_files_and_other_encodings_are_read(tmp_path):

@@ -31,6 +31,7 @@ MOST_SAMPLES = 2_000_000  # 80 s at 25 kHz; the fit of more takes minutes and gi
 MOST_BYTES = 50 * MOST_SAMPLES
 LEAST_SAMPLES = 64  # eight cycles of eight samples
 MOST_FAULTS = 5
+ANOTHER_RATE = 1.1  # a stated rate contradicts the times of a file by more, which lost samples do not explain
 EXAMPLE = 'time,along,normal, or excitation.columns names them by number, such as {time: "1", x: "2", z: "3"}'
 # Names of columns that need no `columns` in the config: phyphox writes `Acceleration x (m/s^2)`, others accel_x or ax.
 KNOWN = {"time": re.compile(r"(time|timestamp|t|(time|timestamp|t)[ _](s|ms|us|µs|ns))", re.IGNORECASE)}
@@ -164,6 +165,29 @@ def unit_of(stated: str | None, headers: list[str], units: Mapping[str, float], 
     return named, [] if named in units else [f"states the unit {shown!r}; {choice}{otherwise}"]
 
 
+def rate_fault(table: Any, rate: float) -> str | None:
+    """The contradiction between a stated rate (Hz) and the times of a file, whose unit may not be known."""
+    place = next((place for place, name in enumerate(table.names) if KNOWN["time"].fullmatch(name)), None)
+    if place is None or len(table.lines) < 2:
+        return None
+    seconds, wrong = table.seconds(place, 1.0)
+    if wrong or seconds[-1] <= seconds[0]:
+        return None
+    stated = TIME_UNITS.get(SPELLINGS.get(table.units[place], table.units[place]))
+    own = (len(seconds) - 1) / (seconds[-1] - seconds[0])
+    rates = [own / unit for unit in ([stated] if stated else TIME_UNITS.values())]
+    nearest = min(rates, key=lambda one: abs(math.log(one / rate)))
+    steps = np.diff(seconds)
+    coarse = steps[steps > 0.0].min() / (seconds[-1] - seconds[0])  # relative error of the duration by rounding
+    if (1.0 - coarse) / ANOTHER_RATE < nearest / rate < ANOTHER_RATE * (1.0 + coarse):
+        return None
+    name = quote(table.names[place])
+    return (
+        f"has the column {name} with {nearest:.4g} samples per second, but excitation.rate is {rate:g}; correct the "
+        f"rate, or leave it out, or delete the column {name} if its times are wrong"
+    )
+
+
 def quantum(readings: np.ndarray) -> float:
     """Smallest difference between two distinct readings; 0 if all are equal."""
     steps = np.diff(np.unique(readings))
@@ -198,6 +222,8 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
         header = table.units[places["time"]] or (written[1].lower() if written else "")
         time_unit, more = unit_of(settings.get("time_unit"), [header], TIME_UNITS, "time_unit")
         faults += more
+    elif fault := rate_fault(table, rate):
+        faults.append(fault)
     if faults:
         raise table.error((table.header, fault) for fault in faults)
     readings, lines = [], table.lines
