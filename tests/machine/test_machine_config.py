@@ -3,7 +3,7 @@
 import pytest
 from project import ROOT, assert_reported, merged, read_config
 
-from conveyor_pipeline.config import canonical
+from conveyor_pipeline.config import canonical, problems
 
 # An overlay, and a part of the expected message.
 WRONG = [
@@ -40,10 +40,28 @@ WRONG = [
         "transit.length = 500.0 m is too long for transit.longest = 20.0 s, because the plate moves at most at 0.4",
     ),
     ({"parts": {"calibrated": True}}, "parts.calibrated needs measurements; name the config with"),
+    (
+        {"transit": {"length": 500}, "model": {"inclination": -0.1}},
+        "transit.length = 500.0 m is too long for transit.longest = 20.0 s",
+    ),
+    ({"drive": {"velocity": 20.0}}, "drive.velocity = 20.0 m/s cannot be reached, because the plate moves at most at"),
+    ({"advice": {"changes": {"inclination": 5}}}, "5° are 0.0873 rad: write 5 deg"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
     ({"drive": {"velocity": 200.0}}, "drive.velocity = 200.0 should be at most 100 (m/s)"),
     ({"transit": {"acceleration": {"num": 1}}}, "has num: 1 for two ends; give more values, or a list such as [19.0]"),
 ]
+
+
+@pytest.mark.parametrize(
+    ("overlay", "message"),
+    [
+        ({"body": {"length": "600 mm", "height": "20 mm", "tilt": 0.1}}, "transit.length = 0.5 m; give a longer"),
+        ({"transit": {"length": "500 m"}}, "m/s; give a shorter track, or give more time"),
+    ],
+)
+def test_lengths_with_a_unit_are_not_taken_for_millimetres(overlay, message):
+    (line,) = problems(merged(read_config(), overlay), stated=overlay)
+    assert message in line and "write" not in line
 
 
 @pytest.mark.parametrize(("overlay", "message"), WRONG, ids=[message[:40] for _, message in WRONG])

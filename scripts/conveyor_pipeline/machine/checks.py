@@ -1,5 +1,6 @@
 """Contradictions in the sections of the floor machine, as in config/checks.py."""
 
+import math
 from collections.abc import Iterator
 
 from conveyor import RANGES
@@ -127,22 +128,45 @@ def bodies(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         )
 
 
+def millimetres(stated: dict, key: str, value: float) -> str:
+    """The remedy for a length that is a number without a unit; empty for one with a unit."""
+    section, _, name = key.partition(".")
+    has_unit = isinstance((stated.get(section) or {}).get(name), str)
+    return "" if has_unit else f"write {value:g} mm"
+
+
+def drive(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """A velocity that no design of the search can reach."""
+    own, bounds = config["drive"], config["drive"]["bounds"]
+    slowest = {**config["model"], "frequency": bounds["frequency"][0], "angle": bounds["angle"][0]}
+    speed = measurements.plate_velocity(bounds["acceleration"][1], slowest)
+    is_level = config["model"]["inclination"] >= 0.0
+    if own["velocity"] != defaults["drive"]["velocity"] and own["velocity"] > speed and is_level:
+        yield (
+            f"drive.velocity = {own['velocity']!r} m/s cannot be reached, because the plate moves at most at "
+            f"{speed:.3g} m/s within drive.bounds; give less, or wider bounds"
+        )
+
+
 def track(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """A track that is shorter than a part, or that no part can pass in time: lengths in millimetres."""
     length, longest, axis = config["transit"]["length"], config["transit"]["longest"], transit_axis(config)
     for key in ("body.length", "advice.part_length"):
         section, _, name = key.partition(".")
         if (part := config.get(section, {}).get(name, 0.0)) > length:
-            yield f"{key} = {part!r} m is longer than the track, transit.length = {length!r} m; write {part:g} mm"
+            remedy = millimetres(stated, key, part) or "give a longer transit.length"
+            yield f"{key} = {part!r} m is longer than the track, transit.length = {length!r} m; {remedy}"
     has_gaps = isinstance(axis, dict) and not {"start", "stop"} <= axis.keys()  # see transit_amplitudes
     # On a fast drive, no part may pass the default track; a sweep has no track.
     if has_gaps or length == defaults["transit"]["length"]:
         return
     speed = measurements.plate_velocity(max(ends(axis)), config["model"])
-    if config["model"]["inclination"] >= 0.0 and length > AMPLITUDE_ERROR * speed * longest:
+    # Parts may slide down a steep track faster than the plate ever moves.
+    slides = math.tan(-config["model"]["inclination"]) >= config["model"]["friction"]
+    if not slides and length > AMPLITUDE_ERROR * speed * longest:
         reason = f"because the plate moves at most at {speed:.3g} m/s"
-        remedy = f"write {length:g} mm, or give more time"
+        remedy = f"{millimetres(stated, 'transit.length', length) or 'give a shorter track'}, or give more time"
         yield f"transit.length = {length!r} m is too long for transit.longest = {longest!r} s, {reason}; {remedy}"
 
 
-CHECKS = (transit_amplitudes, numbers_of_runs, durations, supply, calibration, excitation, bodies, track)
+CHECKS = (transit_amplitudes, numbers_of_runs, durations, supply, calibration, excitation, bodies, drive, track)

@@ -164,7 +164,7 @@ rule operating_chart:
     params:
         **stage("conveyor_pipeline.machine.operating.chart"),
         assumed=assumed_parts(config, loaded.stated),
-        assumed_model=[] if loaded.is_paper else assumed_model(loaded.stated, origins_of(config)),
+        assumed_model=assumed_model(loaded.stated, origins_of(config)) if PREFIX else [],
         axis=key_of_amplitudes(config),
     script:
         "../../../scripts/conveyor_pipeline/make.py"

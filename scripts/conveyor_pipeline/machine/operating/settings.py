@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from functools import partial
-from typing import NotRequired
+from typing import Any, NotRequired
 
 from typing_extensions import TypedDict
 
@@ -29,6 +29,15 @@ from conveyor_pipeline.common.settings import (
 )
 from conveyor_pipeline.common.table_settings import INITIAL_CONDITION, model_of
 from conveyor_pipeline.machine.operating.supply import FORCES, amplitude_range
+
+# Largest changes that an advice may examine.
+CHANGES = {"angle": 0.5, "frequency": 1e4, "friction": 1.0, "inclination": 0.5, "phase_shift": 3.15}
+
+
+def change(name: str) -> Any:
+    """The type of a change of a parameter."""
+    return number(f"change of {name}", UNITS[name], gt=0, le=CHANGES[name])
+
 
 DEVIATION = number("relative standard deviation", "of the value in the model", ge=0, le=1)
 
@@ -84,8 +93,8 @@ class Advice(TypedDict):
     changes: mapping(
         "changes of single parameters, up and down",
         {"dimensionless": dimensionless(frequency=number("change of the frequency, over the model's", gt=0, lt=1))}
-        | {name: NotRequired[number(f"change of {name}", UNITS[name], gt=0)] for name in ("angle", "frequency")}
-        | {name: number(f"change of {name}", UNITS[name], gt=0) for name in ("friction", "inclination", "phase_shift")},
+        | {name: NotRequired[change(name)] for name in ("angle", "frequency")}
+        | {name: change(name) for name in ("friction", "inclination", "phase_shift")},
     )
     part_length: NotRequired[number("length of a part in the feeding direction", "m", gt=0, le=10)]
 
