@@ -24,6 +24,8 @@ WRONG = [
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),
+    ({"model": {"frequency": 0.05}}, "it follows from the model: are model.frequency and model.angle right?"),
+    ({"model": {"angle": 0.001}}, "it follows from the model: are model.frequency and model.angle right?"),
     ({"model": {"stiffness": "500 N/mm"}}, "'500 N/mm' is not in the unit of the contact law; give it in N/m^1.5"),
     ({"model": {"angle": "120 deg"}}, "model.angle = '120 deg' should be at most 1.5708 (rad)"),
     (

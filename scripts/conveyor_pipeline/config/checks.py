@@ -246,7 +246,7 @@ def problems(config: dict, defaults: dict | None = None, stated: dict | None = N
         return faults
     # Converted values have the limits of their SI units, and a partial axis has what the default gives.
     if errors := type_problems(typed := to_si(typed)):
-        return errors
+        return [f"{error}; it follows from the model: are model.frequency and model.angle right?" for error in errors]
     if faults := list(faults_of_derived(typed, defaults, stated or {})):
         return faults
     typed = with_derived(typed)

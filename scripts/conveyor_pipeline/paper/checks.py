@@ -13,7 +13,7 @@ def perturbations(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         perturb, epsilon = entry["perturb"], entry["epsilon"]
         values = values_of(resolve(config, "estimates", name), perturb)
         if "conveyor" in values:
-            remedy = "give z0 a height in m, or perturb another parameter"
+            remedy = f"give model.z0 or estimates.{name}.model.z0 a height in m, or perturb another parameter"
             yield f"estimates.{name}.perturb = {perturb!r} has no effect because z0 is the word conveyor; {remedy}"
         elif any(abs(value + epsilon - value - epsilon) > 0.5 * epsilon for value in values):
             yield f"estimates.{name}.epsilon = {epsilon!r} is lost in the rounding of {perturb}; give a larger one"

@@ -519,7 +519,7 @@ def test_the_page_says_that_fast_parts_slide_away(refined):
     steep = refined.assign(status=regimes.SLIDES_AWAY)
     steep.attrs = refined.attrs
     page = page_of(steep, advised())
-    assert page.index("**Fast for nearly all parts.**") < page.index("too steep") < page.index("- **Amplitude")
+    assert page.index("## Where to run") < page.index("too steep") < page.index("**Fast for nearly all parts.**")
     assert "too steep" not in page_of(refined, advised())
 
 
