@@ -8,7 +8,7 @@ from project import ROOT, assert_refused, dry_run, load
 
 from conveyor import throw_number
 from conveyor_pipeline.config import ConfigError
-from conveyor_pipeline.machine.operating.settings import key_of_amplitudes, transit_axis
+from conveyor_pipeline.machine.operating.settings import remedies_for_amplitudes, transit_axis
 
 
 def test_dimensionless_settings_fit_the_papers_conveyor():
@@ -89,7 +89,15 @@ def test_dimensionless_values_that_cannot_be_used_are_refused(overlay, told):
 def test_transit_has_the_amplitudes_of_the_shares_unless_it_gives_its_own(operating, transit, expected):
     config = load({"prefix": "mine", "operating": {"acceleration": operating}, "transit": transit})
     assert transit_axis(config) == expected
-    assert key_of_amplitudes(config) == f"{'transit' if transit else 'operating'}.acceleration"
+    key, remedies = f"{'transit' if transit else 'operating'}.acceleration", remedies_for_amplitudes(config, {})
+    smaller = f"add a smaller value to `{key}`" if isinstance(expected, list) else f"lower `{key}.start`"
+    assert (remedies["key"], remedies["start"]) == (key, smaller)
+
+
+def test_the_remedy_names_throw_numbers_where_the_config_states_them():
+    stated = {"operating": {"dimensionless": {"acceleration": {"start": 0.5, "stop": 2.0, "num": 5}}}}
+    remedies = remedies_for_amplitudes(load({"prefix": "mine", **stated}), stated)
+    assert remedies["stop"] == "raise `operating.dimensionless.acceleration.stop`"
 
 
 @pytest.mark.parametrize(

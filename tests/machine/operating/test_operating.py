@@ -378,11 +378,15 @@ def advised(**worst: float) -> list[pd.DataFrame]:
     return [rows, advice_rows, pd.DataFrame(changes).assign(gain_stderr=0.032, widening_stderr=0.01, velocity_05=0.03)]
 
 
+REMEDIES = {"key": "operating.acceleration", "start": "lower `operating.acceleration.start`"}
+REMEDIES["stop"] = "raise `operating.acceleration.stop`"
+
+
 def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame], assumed=(), assumed_model=()) -> str:
     rows, advice_rows, changes = tables
     found = intervals_of(shares_table)
     tables = (rows, shares_table, found, advice_rows, changes)
-    return chart.make(TEMPLATE, *tables, assumed, assumed_model, "operating.acceleration")
+    return chart.make(TEMPLATE, *tables, assumed, assumed_model, REMEDIES)
 
 
 def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
@@ -766,6 +770,24 @@ def test_regimes_and_their_words(refined):
 )
 def test_regime_of_an_amplitude(states, velocities, regime):
     assert regimes.regime_of(np.array(states), np.array(velocities)) == regime
+
+
+def test_the_fastest_motion_is_not_known_where_a_velocity_is_not(refined):
+    one = refined[refined.acceleration == 20.0]
+    missing = pd.concat([one, one.assign(state="undecided", mean_velocity=np.nan)], ignore_index=True)
+    (row,) = intervals_of(missing).to_dict("records")
+    assert row["regime"] == regimes.UNKNOWN
+    assert np.isnan([row[name] for name in ("velocity_low", "best_low", "best_high", "best_share_low")]).all()
+
+
+def test_an_amplitude_as_even_as_the_fast_one_is_no_advice_of_its_own():
+    """The ranges of both contain the amplitude with the largest spread."""
+    table = made_up_transit([0.10, 0.11, 0.10], [0.3, 0.2, 0.1])
+
+    def around(place):
+        return table
+
+    assert advice.choose(table, around) == {"fast": 1, "even": 1}
 
 
 def test_a_table_without_known_amplitudes_gives_no_advice(refined):

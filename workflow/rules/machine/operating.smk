@@ -2,7 +2,7 @@
 # follows for the operator.
 
 from conveyor_pipeline.config.derived import origins_of
-from conveyor_pipeline.machine.operating.settings import START_TABLES, assumed_model, assumed_parts, key_of_amplitudes
+from conveyor_pipeline.machine.operating.settings import START_TABLES, assumed_model, assumed_parts, remedies_for_amplitudes
 
 # If the config says so, the parameters of parts are drawn from the samples of the calibration, around their best values. The overlay
 # exists only if the model explains the measurements.
@@ -165,7 +165,7 @@ rule operating_chart:
         **stage("conveyor_pipeline.machine.operating.chart"),
         assumed=assumed_parts(config, loaded.stated),
         assumed_model=assumed_model(loaded.stated, origins_of(config)) if PREFIX else [],
-        axis=key_of_amplitudes(config),
+        remedies=remedies_for_amplitudes(config, loaded.stated),
     script:
         "../../../scripts/conveyor_pipeline/make.py"
 

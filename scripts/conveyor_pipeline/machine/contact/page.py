@@ -6,13 +6,14 @@ import numpy as np
 import pandas as pd
 
 from conveyor import restitution
-from conveyor.materials import UNCERTAINTY, material
+from conveyor.materials import ELASTOMERS, UNCERTAINTY, material
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.contact.derive import HERTZ, NAMED, drop_speed, moduli_of, on_level_plate
 from conveyor_pipeline.machine.contact.variants import BOUNCE, RADIUS, STATED, contacts, penetration, stiffness_range
 from conveyor_pipeline.machine.operating.advice import EVEN, FAST
 
 SPEEDS = (0.02, 0.05, 0.1, 0.2, 0.5)  # m/s, in the table of restitutions
+CERTAIN = 2.0  # standard errors that a change must exceed to be named
 NOTICEABLE = 0.2  # relative change of the velocity of the slowest parts that the page points out
 
 
@@ -27,7 +28,9 @@ def describe(given: str | dict) -> dict:
 
 def make(template: str, variants: pd.DataFrame, advice: pd.DataFrame) -> str:
     """The page from its template, the table of variants and the advice."""
-    settings = variants.attrs
+    settings, aims = variants.attrs, {FAST: "fast for nearly all parts", EVEN: "even"}
+    if len(advice) == 2 and advice.acceleration.nunique() == 1:
+        advice, variants, aims = advice[:1], variants[variants.aim == advice.aim.iloc[0]], {FAST: "fast and even"}
     own, model, drop = settings["contact"], settings["model"], drop_speed(settings)
     impacts = {row.aim: row.impact_speed for row in advice.itertuples() if row.impact_speed > 0.0}
     places = [(f"in the drop of {1e3 * own['drop_height']:g} mm", drop)]
@@ -37,11 +40,15 @@ def make(template: str, variants: pd.DataFrame, advice: pd.DataFrame) -> str:
     for aim, rows in variants.groupby("aim", sort=False):
         slowest, stated = rows.velocity_05, rows.velocity_05.iloc[0]
         changes = (slowest / stated - 1.0).abs() if stated else slowest * np.nan
+        certain = (slowest - stated).abs() > CERTAIN * np.hypot(
+            rows.velocity_05_stderr, rows.velocity_05_stderr.iloc[0]
+        )
+        changes = changes.where(certain)
         by_aim[aim] = {
             "rows": rows.replace({np.nan: None}).to_dict("records"),
             "slowest": (float(slowest.min()), float(slowest.max())),
             "stated": float(stated),
-            "most": rows.variant.iloc[int(changes.argmax())] if changes.notna().any() else None,
+            "most": rows.variant.loc[changes.idxmax()] if changes.notna().any() else None,
             "change": float(changes.max()),
         }
     depths = {"drop": penetration(model, drop)} | {aim: penetration(model, speed) for aim, speed in impacts.items()}
@@ -60,7 +67,8 @@ def make(template: str, variants: pd.DataFrame, advice: pd.DataFrame) -> str:
             for place, speed in sorted(places, key=lambda one: -one[1])
         ],
         "by_aim": by_aim,
-        "aims": {FAST: "fast for nearly all parts", EVEN: "even"},
+        "aims": aims,
+        "has_elastomer": any(str(own.get(name)).startswith(ELASTOMERS) for name in NAMED),
         "factors": {"radius": RADIUS, "stated": STATED, "elastomer": UNCERTAINTY},
         "bounce": BOUNCE,
         "noticeable": NOTICEABLE,

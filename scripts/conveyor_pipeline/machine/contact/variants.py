@@ -56,7 +56,7 @@ def stiffness_range(settings: dict) -> tuple[float, float]:
 def contacts(settings: dict) -> dict[str, dict[str, float]]:
     """Stiffness (N/m^p), damping (N s/m) and restitution in the drop (`drop`) of each variant.
 
-    A contact that does not bounce in the drop has no variants of its damping.
+    A contact that does not bounce in the drop has no variants of its damping, and none bounces higher than it fell.
     """
     model, speed = settings["model"], drop_speed(settings)
     stated = restitution(on_level_plate(model), speed)
@@ -65,7 +65,7 @@ def contacts(settings: dict) -> dict[str, dict[str, float]]:
     def contact(stiffness: float, drop: float) -> dict[str, float]:
         damping = model["damping"]
         if stated > 0.0:
-            damping = damping_of(drop, speed, on_level_plate(model, stiffness=stiffness))
+            damping = damping_of(drop, speed, on_level_plate(model, stiffness=stiffness)) if drop < 1.0 else 0.0
         return {"stiffness": stiffness, "damping": damping, "drop": drop}
 
     found = {
@@ -75,7 +75,8 @@ def contacts(settings: dict) -> dict[str, dict[str, float]]:
     }
     if stated > 0.0:
         found[DEAD] = contact(model["stiffness"], stated * (1.0 - BOUNCE))
-        found[LIVELY] = contact(model["stiffness"], min(1.0, stated * (1.0 + BOUNCE)))
+        if stated * (1.0 + BOUNCE) < 1.0:
+            found[LIVELY] = contact(model["stiffness"], stated * (1.0 + BOUNCE))
     return found
 
 

@@ -99,8 +99,14 @@ def choose(
     def evenness(measures: pd.DataFrame) -> np.ndarray:
         return np.where(measures.velocity_05 >= needed, -measures.spread, -np.inf)
 
-    even = best(bounds(evenness(rows)), lambda place: evenness(around(place)).min())
-    return {FAST: fast} if even is None else {FAST: fast, EVEN: even}
+    def worst_evenness(place: int) -> float:
+        return evenness(around(place)).min()
+
+    even = best(bounds(evenness(rows)), worst_evenness)
+    if even is None:
+        return {FAST: fast}
+    # Ranges that overlap may have their worst spread in common.
+    return {FAST: fast, EVEN: fast if worst_evenness(fast) >= worst_evenness(even) else even}
 
 
 def beyond(amplitudes: np.ndarray, low: float, high: float) -> np.ndarray:

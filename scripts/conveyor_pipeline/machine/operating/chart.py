@@ -137,12 +137,12 @@ def make(
     changes: pd.DataFrame,
     assumed: Sequence[str],
     assumed_model: Sequence[str],
-    axis: str,
+    remedies: dict[str, str],
 ) -> str:
     """The page from its template and its tables.
 
     assumed, assumed_model : differences of parts, and parameters of the model, that the config does not state
-    axis : key of the amplitudes in the config
+    remedies : for an amplitude at an end of the examined ones, see settings.remedies_for_amplitudes
     """
     rows = group_narrow(regimes, advice.attrs["margin"])
     velocities = ["velocity_low", "best_low", "best_high"]
@@ -160,7 +160,7 @@ def make(
         "long_flight": LONG_FLIGHT,
         "assumed": {name: transit.attrs["spread"][name] for name in assumed},
         "assumed_model": {name: transit.attrs["model"][name] for name in assumed_model},
-        "axis": axis,
+        "remedies": remedies,
         "options": advice.attrs | ({"part_length": body["length"]} if body else {}),
         "body": body,
         "forward": moves_forward(transit),

@@ -107,9 +107,12 @@ def summarize_shares(shares: pd.DataFrame) -> dict:
 
 
 def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame:
-    """The table of regimes from `summarize_amplitudes`: one row for each interval of amplitudes with one regime."""
+    """The table of regimes from `summarize_amplitudes`: one row for each interval of amplitudes with one regime.
+
+    Where a velocity is not known, neither is the fastest or the slowest motion.
+    """
     numbers = (amplitudes.regime != amplitudes.regime.shift()).cumsum()
-    rows = []
+    rows, known = [], ["velocity_low", "best_low", "best_high", "best_share_low", "best_share_high"]
     for number, part in amplitudes.groupby(numbers):
         begin, end = part.acceleration.min(), part.acceleration.max()
         inside = shares[shares.acceleration.between(begin, end)]
@@ -130,6 +133,8 @@ def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame
                 "best_share_high": part.best_share.max(),
             }
         )
+        if inside.mean_velocity.isna().any():  # a motion without a velocity may be the fastest or the slowest one
+            rows[-1] |= dict.fromkeys(known, np.nan)
     return pd.DataFrame(rows)
 
 

@@ -187,9 +187,17 @@ def transit_axis(config: dict) -> dict | list:
     return {**shared, **own} if isinstance(own, dict) and isinstance(shared, dict) else own or shared
 
 
-def key_of_amplitudes(config: dict) -> str:
-    """The key of the config that decides the ends of the amplitudes of the transit table."""
-    return f"{'transit' if 'acceleration' in config['transit'] else 'operating'}.acceleration"
+def remedies_for_amplitudes(config: dict, stated: dict) -> dict[str, str]:
+    """How to examine other amplitudes: the `key` of the config, and what makes the range of the transit table begin
+    lower (`start`) and end higher (`stop`).
+    """
+    section = "transit" if "acceleration" in config["transit"] else "operating"
+    key = f"{section}.acceleration"
+    if "acceleration" in (stated.get(section) or {}).get("dimensionless", {}):
+        key = f"{section}.dimensionless.acceleration"
+    if isinstance(transit_axis(config), list):
+        return {"key": key, "start": f"add a smaller value to `{key}`", "stop": f"add a larger value to `{key}`"}
+    return {"key": key, "start": f"lower `{key}.start`", "stop": f"raise `{key}.stop`"}
 
 
 def transit_settings(config: dict, without: Iterable[str] = ()) -> dict:
