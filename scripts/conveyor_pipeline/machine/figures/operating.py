@@ -58,15 +58,16 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame, advice: pd.DataFrame) -
     amplitudes = np.sort(shares.acceleration.unique())
 
     best = summarize_amplitudes(shares)
-    slowest = shares.groupby("acceleration").mean_velocity.min()
     if best.best.isna().all():
-        style.say(share, "no motion has a mean velocity")
+        style.say(share, "the fastest motion is not known at any amplitude")
     else:
-        velocities.fill_between(amplitudes, slowest, best.best, color="0.88", linewidth=0.0)
+        velocities.fill_between(best.acceleration, best.slowest, best.best, color="0.88", linewidth=0.0)
         velocities.plot(best.acceleration, best.best, color="black", label="fastest motion")
         look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (3, 2))}
         velocities.plot(best.acceleration, best["mean"], label="mean over all initial conditions", **look)
-        velocities.plot(amplitudes, slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion")
+        velocities.plot(
+            best.acceleration, best.slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion"
+        )
     velocities.plot(amplitudes, throw_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK)
     velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     style.velocity_axis(velocities.yaxis)

@@ -61,19 +61,22 @@ def regime_of(state: np.ndarray, velocity: np.ndarray) -> str:
 
 
 def summarize_amplitudes(shares: pd.DataFrame) -> pd.DataFrame:
-    """At each amplitude of a table of shares, ascending: its regime, the velocity of the fastest motion (`best`), the
-    share of initial conditions that reach it (`best_share`) with its standard error (`stderr`), and the mean velocity
-    over all initial conditions (`mean`). `mean` is NaN if any velocity is not known, the others if none is known.
+    """What each amplitude of a table of shares has, ascending.
+
+    Its regime, the velocities of the fastest motion (`best`) and of the `slowest` one, the share of initial conditions
+    that reach the fastest one (`best_share`) with its standard error (`stderr`), and the mean velocity over all initial
+    conditions (`mean`). These numbers are NaN if any velocity is not known: that motion may be the fastest one.
     """
     rows = []
     for acceleration, motions in shares.groupby("acceleration"):
-        velocity, best = motions.mean_velocity.to_numpy(), motions.mean_velocity.max()
+        velocity, best = motions.mean_velocity.to_numpy(), motions.mean_velocity.max(skipna=False)
         reach_it = np.nan if np.isnan(best) else float(motions.share[same(velocity, best)].sum())
         rows.append(
             {
                 "acceleration": acceleration,
                 "regime": regime_of(motions.state.to_numpy(), velocity),
                 "best": best,
+                "slowest": motions.mean_velocity.min(skipna=False),
                 "best_share": reach_it,
                 # Rounding may make the sum of shares slightly larger than 1.
                 "stderr": np.sqrt(max(reach_it * (1.0 - reach_it), 0.0) / motions.starts.sum()),
@@ -112,7 +115,7 @@ def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame
     Where a velocity is not known, neither is the fastest or the slowest motion.
     """
     numbers = (amplitudes.regime != amplitudes.regime.shift()).cumsum()
-    rows, known = [], ["velocity_low", "best_low", "best_high", "best_share_low", "best_share_high"]
+    rows = []
     for number, part in amplitudes.groupby(numbers):
         begin, end = part.acceleration.min(), part.acceleration.max()
         inside = shares[shares.acceleration.between(begin, end)]
@@ -126,15 +129,13 @@ def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame
                 "step": part.acceleration.diff().max(),
                 "amplitudes": len(part),
                 "states": ", ".join(states.index),
-                "velocity_low": inside.mean_velocity.min(),
+                "velocity_low": part.slowest.min(),
                 "best_low": part.best.min(),
                 "best_high": part.best.max(),
                 "best_share_low": part.best_share.min(),
                 "best_share_high": part.best_share.max(),
             }
         )
-        if inside.mean_velocity.isna().any():  # a motion without a velocity may be the fastest or the slowest one
-            rows[-1] |= dict.fromkeys(known, np.nan)
     return pd.DataFrame(rows)
 
 
