@@ -2,7 +2,12 @@
 # follows for the operator.
 
 from conveyor_pipeline.config.derived import origins_of
-from conveyor_pipeline.machine.operating.settings import START_TABLES, assumed_model, assumed_parts, remedies_for_amplitudes
+from conveyor_pipeline.machine.operating.settings import (
+    START_TABLES,
+    assumed_model,
+    assumed_parts,
+    remedies_for_amplitudes,
+)
 
 # If the config says so, the parameters of parts are drawn from the samples of the calibration, around their best values. The overlay
 # exists only if the model explains the measurements.
