@@ -140,8 +140,9 @@ def drive(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     own, bounds = config["drive"], config["drive"]["bounds"]
     slowest = {**config["model"], "frequency": bounds["frequency"][0], "angle": bounds["angle"][0]}
     speed = measurements.plate_velocity(bounds["acceleration"][1], slowest)
-    is_level = config["model"]["inclination"] >= 0.0
-    if own["velocity"] != defaults["drive"]["velocity"] and own["velocity"] > speed and is_level:
+    # On a track that descends, gravity may add to the velocity.
+    descends = config["model"]["inclination"] < 0.0
+    if own["velocity"] != defaults["drive"]["velocity"] and own["velocity"] > speed and not descends:
         yield (
             f"drive.velocity = {own['velocity']!r} m/s cannot be reached, because the plate moves at most at "
             f"{speed:.3g} m/s within drive.bounds; give less, or wider bounds"
