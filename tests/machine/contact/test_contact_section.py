@@ -118,6 +118,13 @@ def made(overlay, impact_speed=0.2):
     return settings | {"starts": 16, "longest": 2.0, "length": 0.05}, found
 
 
+def test_no_contact_bounces_higher_than_the_part_fell():
+    found = variants.contacts(made(MINE | {"contact": {**MINE["contact"], "restitution": 1.0}})[0])
+    assert "bounces more" not in found
+    assert {found[name]["damping"] for name in ("stated", "softer", "stiffer")} == {0.0}
+    assert found["bounces less"]["damping"] > 0.0
+
+
 def test_variants_keep_the_bounce_or_the_stiffness():
     settings, _ = made(MINE)
     found = variants.contacts(settings)
