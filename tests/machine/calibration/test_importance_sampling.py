@@ -16,7 +16,7 @@ from conveyor_pipeline.machine.calibration.importance_sampling import (
 )
 
 BOUNDS = np.array([[-5.0, -5.0, -5.0], [5.0, 5.0, 5.0]])
-OPTIONS = {"first": 500, "points": 500, "rounds": 6, "enough": math.inf, "seed": 1}
+OPTIONS = {"first": 500, "points": 500, "rounds": 3, "enough": math.inf, "seed": 1}
 # A narrow valley: the standard deviations are 1, 0.1 and 0.5, and the first two parameters are correlated.
 COVARIANCE = np.array([[1.0, 0.09, 0.0], [0.09, 0.01, 0.0], [0.0, 0.0, 0.25]])
 MEAN = np.array([0.5, -1.0, 2.0])
@@ -61,7 +61,7 @@ def test_searches_reach_the_narrow_end_of_a_bent_valley():
         across = ((y - 0.8 * x + 0.1 * x**2) / width) ** 2 + ((z - 0.8 * x) / 0.03) ** 2
         return -0.5 * ((x / 0.4) ** 2 + across) - np.log(width)
 
-    options = OPTIONS | {"first": 1000, "points": 1000, "rounds": 5}
+    options = OPTIONS | {"first": 1000, "points": 1000, "rounds": 3}
     found = pooled([sample(one_factor(bent), bounds, **options | {"seed": [0, seed]}) for seed in range(12)])
     for side in (-1.0, 1.0):
         is_beyond = side * found.points[:, 0] > 0.4 * 1.96
@@ -94,7 +94,7 @@ def test_the_monte_carlo_error_is_that_of_repetitions():
     means, errors = [], []
     for repetition in range(10):
         seeds = range(8 * repetition, 8 * repetition + 8)
-        options = OPTIONS | {"first": 100, "points": 100, "rounds": 3}
+        options = OPTIONS | {"first": 100, "points": 100, "rounds": 2}
         found = pooled([sample(one_factor(valley), BOUNDS, **options | {"seed": seed}) for seed in seeds])
 
         def mean(weights, points=found.points):
@@ -186,6 +186,20 @@ def test_the_search_ends_without_enough_samples_after_the_last_round():
 
 
 @pytest.mark.usefixtures("exact")
+def test_a_search_that_has_not_enough_samples_goes_on_for_as_many_rounds_again():
+    """A peak that a search of three rounds has only just reached."""
+    calls = []
+
+    def peak(x):
+        calls.append(len(x))
+        return -0.5 * np.sum(((x - MEAN) / 0.1) ** 2, axis=1)
+
+    options = {"first": 100, "points": 100, "rounds": 3, "seed": 1}
+    found = sample(one_factor(peak), BOUNDS, **options, enough=40.0)
+    assert found.size >= 40.0 and 1 + options["rounds"] < len(calls) <= 1 + 2 * options["rounds"]
+
+
+@pytest.mark.usefixtures("exact")
 def test_points_of_a_related_posterior_lead_to_a_narrow_one():
     """A peak that fills 3e-8 of the bounds, found from its projection on three of four parameters."""
 
@@ -195,7 +209,7 @@ def test_points_of_a_related_posterior_lead_to_a_narrow_one():
     bounds = np.column_stack([BOUNDS, [-5.0, 5.0]])
     random = np.random.default_rng(2)
     near = np.column_stack([random.normal(MEAN, 0.02, (200, 3)), random.uniform(-5.0, 5.0, 200)])
-    options = OPTIONS | {"first": 200, "points": 200, "rounds": 3}
+    options = OPTIONS | {"first": 200, "points": 200, "rounds": 2}
     found = sample(one_factor(peak), bounds, **options, near=(near, np.ones(len(near))))
     evidence = math.log(4.0 * math.pi**2 * 0.02**3 / 1e4)
     assert found.log_evidence == pytest.approx(evidence, abs=0.3)

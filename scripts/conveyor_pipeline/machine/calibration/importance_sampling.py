@@ -36,6 +36,9 @@ from conveyor.linear_algebra import cholesky, product, solve
 # Standard deviations of the average over neighbours, in units of the standard deviation of the posterior. The narrowest
 # one that gives enough effective points counts; wider ones are only tried after more rounds.
 WIDTHS = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5)
+# A search that does not have enough effective points after its rounds goes on for up to this multiple of them, with the
+# widest average. It may have found a narrow maximum late, which the others have missed.
+LONGER = 2
 # Effective points that the density of a proposal keeps, for each parameter and as a share of a round, and the factor by
 # which its power falls if even the flattest density keeps fewer. With fewer points, searches in a narrow valley all
 # miss its ends, so that the difference between them does not show it.
@@ -215,7 +218,7 @@ def sample(
     bounds : lower and upper bounds, shape (2, d)
     first : number of points of the first round, which fills the bounds evenly, or lies near a related posterior
     points : number of points of each further round; those beyond the bounds are dropped
-    rounds : largest number of further rounds
+    rounds : number of further rounds over which averages become wider; after LONGER times as many, the search ends
     enough : effective number of points at which the search ends
     seed : of the random numbers
     near : points of a related posterior, shape (k, d), and their weights, shape (k,)
@@ -267,7 +270,7 @@ def sample(
             settled = settle(factors[0], x, mixture, known, width, enough)
             if settled.size >= enough or width >= WIDTHS[-1] * done / rounds:
                 break
-        if settled.size >= enough or done == rounds:
+        if settled.size >= enough or done == LONGER * rounds:
             # A proposal counts as one in `mixture`, and stands for as many points as a round has.
             return settled._replace(log_evidence=settled.log_evidence - math.log(points))
         known = tempered(known, WIDTHS[-1])
