@@ -79,6 +79,7 @@ BAD = {
         2,
         "sd = 0.5 m/s is larger than the largest velocity of the plate",
     ),
+    "height in the plate": (f"{HEAD},z0\n30,0.02,0.0003\n40,0.05,-0.3\n50,0.06,\n", 3, "z0 = -0.3 m is in the plate"),
     "negative amplitude": (f"{HEAD}\n-0.3,0.02\n40,0.05\n50,0.06\n", 2, "acceleration = -0.3 must not be negative"),
     "semicolons below commas": (
         f"{HEAD}\n30;0.02\n40;0.05\n50;0,06\n",

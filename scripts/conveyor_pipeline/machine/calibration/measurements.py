@@ -147,6 +147,19 @@ def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tuple
     ]
 
 
+def height_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tuple[int, str]]:
+    """Line and description of initial heights at which the part would be in the plate at any time."""
+    faults = []
+    for row in rows:
+        own = {**model, **row.changed}
+        shape = 1.0 + sum(harmonic["normal"] / harmonic["order"] ** 2 for harmonic in own.get("harmonics", ()))
+        stroke = row.acceleration * math.sin(own.get("angle", 0.5 * math.pi)) / (2.0 * math.pi * own["frequency"]) ** 2 * shape
+        if row.changed.get("z0", 0.0) < -stroke:
+            fault = f"z0 = {row.changed['z0']:g} m is in the plate, which moves by at most ±{stroke:.3g} m"
+            faults.append((row.line, f"{fault}; give the height above its mean position"))
+    return faults
+
+
 def wanted(ranges: Mapping) -> Callable[[str], bool]:
     """A function that says whether the header of a column names a quantity of a measurement."""
     return lambda header: re.split(r"[\s(\[]", header.strip().lower())[0] in (*COLUMNS, *ranges)
@@ -186,7 +199,7 @@ def parse(table: Any, settings: Mapping[str, Any], ranges: Mapping) -> list[Meas
         measurement_of(line, {name: float(values[row]) for name, values in columns.items()})
         for row, line in enumerate(table.lines.tolist())
     ]
-    if faults := unit_faults(rows, settings["model"]):
+    if faults := unit_faults(rows, settings["model"]) or height_faults(rows, settings["model"]):
         raise table.error(faults)
     if len(rows) < parameters:
         remedy = "measure more, or calibrate fewer with calibration.parameters"

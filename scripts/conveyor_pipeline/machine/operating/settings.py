@@ -144,7 +144,7 @@ class DriveBounds(TypedDict):
 
 class Drive(TypedDict):
     bounds: described(DriveBounds, "search interval of each parameter")
-    displacement: number("largest displacement of the plate, â/ω² without harmonics", "m", gt=0, le=1)
+    displacement: number("largest displacement of the plate, â/ω² without harmonics", "m", gt=0, le=0.1)
     velocity: number("least useful velocity of the slowest 5 % of the parts", "m/s", gt=0, le=100)
     impact_speed: number("largest impact speed that a design may have", "m/s", gt=0, le=100)
     back: number("largest share of the parts that may move back", ge=0, lt=1)
