@@ -124,7 +124,6 @@ def test_fig_10_without_a_common_amplitude_or_without_a_critical_height():
     tables = {"converged": converged, "euler": euler, "fit": converged}
     assert "at no common amplitude" in caption("fig10", **tables)
     back = pd.concat([converged, converged.assign(z0=2e-4, is_critical=False, state_above="first")])
-    back.attrs = converged.attrs
     for table, returns in ((converged, False), (back, True), (back.assign(state_above="chaos"), False)):
         assert ("Triangles" in caption("fig10", **tables | {"converged": table})) == returns
     many = back.assign(status="between two heights of the scan")

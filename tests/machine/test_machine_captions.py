@@ -16,7 +16,6 @@ def test_grey_parts_of_the_map_of_tracks_are_explained():
     assert "too steep" not in missing
     other = table.assign(state="second", mean_velocity=np.nan, status="no initial condition leads to the state")
     both = pd.concat([table.assign(status="ok"), other])
-    both.attrs = table.attrs
     absent = "On none of these tracks does one of 16 random initial conditions lead to the second state."
     assert absent in caption("track", track=both)
 
@@ -33,7 +32,6 @@ def test_the_operating_chart_says_how_many_amplitudes_a_limit_leaves_open():
         assert "At 2 of 3 amplitudes, the search for a state or a mean velocity ended before it was known." in text
         assert "``solver.settling``" in text
         slides = shares.assign(status=["ok", "slides away"] * 2)
-        slides.attrs = shares.attrs
         assert "ended" not in caption(name, shares=slides, **tables)
 
 
@@ -67,5 +65,4 @@ def test_the_largest_share_of_parts_that_move_back_is_named_although_runs_failed
         "transit", transit=table, **tables
     )
     still = table.assign(back=0.0)
-    still.attrs = table.attrs
     assert "move back" not in caption("transit", transit=still, **tables)

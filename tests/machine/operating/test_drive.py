@@ -207,7 +207,6 @@ def test_the_page_names_the_harmonics_of_the_plate(made):
 
 def test_the_page_says_that_nothing_was_found(made):
     none = made["drive_front"].assign(recommended=False, confirmed=False)
-    none.attrs = SETTINGS
     page = drive_page.make(TEMPLATE, none, growing(0.1, 0.5, 0.9, 1.0))
     assert "No design of the search was confirmed" in page
     assert "**The search has not settled.**" in page

@@ -396,7 +396,6 @@ def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
 def test_no_amplitude_is_recommended_where_parts_move_back(refined):
     rows, *others = advised()
     back = rows.assign(velocity_95=-0.01)
-    back.attrs = rows.attrs
     page = page_of(refined, [back, *others])
     assert (
         "**At no amplitude do more than 5 % of the parts move forward** (faster than 1 % of the plate's largest "
@@ -404,7 +403,6 @@ def test_no_amplitude_is_recommended_where_parts_move_back(refined):
     )
     assert "- **Amplitude" not in page and "relative spread is" not in page
     steep = refined.assign(status=regimes.SLIDES_AWAY)
-    steep.attrs = refined.attrs
     assert "too steep for friction to stop a part" in page_of(steep, [back, *others])
 
 
@@ -473,17 +471,14 @@ def test_the_page_says_that_parts_move_back_everywhere(refined):
 def test_the_page_names_harmonics_of_the_plate(refined):
     tables = advised()
     assert "whose motion has" not in page_of(refined, tables)
-    tables[0].attrs["model"] = tables[0].attrs["model"] | {"harmonics": [{"order": 2}, {"order": 3}]}
+    tables[0].attrs["model"]["harmonics"] = [{"order": 2}, {"order": 3}]
     assert "on a plate whose motion has harmonics of the orders 2 and 3. They come" in page_of(refined, tables)
 
 
 def test_large_forces_have_no_exponent_and_unknown_ones_are_left_out(refined):
     page = page_of(refined, advised(peak_force=128.0))
     assert "contact force up to 130 N (13000 times the weight of the part)" in page
-    tables = advised()
-    tables[1] = tables[1].assign(peak_force=math.nan)
-    tables[1].attrs = advised()[1].attrs
-    page = page_of(refined, tables).split("## What")[0]
+    page = page_of(refined, advised(peak_force=math.nan)).split("## What")[0]
     assert "contact force" not in page
     assert "Impacts and forces are not known: all parts arrive within 0.4 s" in page
 
@@ -496,9 +491,8 @@ def test_the_page_says_which_parts_its_forces_belong_to(refined):
 @pytest.mark.parametrize(("stderr", "unsure"), [(0.0, False), (0.01, True)])
 def test_the_page_says_if_the_even_amplitude_is_not_known_to_be_more_even(refined, stderr, unsure):
     rows, advice_rows, changes = advised()
-    attrs, advice_rows = advice_rows.attrs, advice_rows.assign(spread_worst=[1.1, 1.0])
+    advice_rows["spread_worst"] = [1.1, 1.0]
     advice_rows[[name for name in advice_rows if name.endswith("_stderr")]] = stderr
-    advice_rows.attrs = attrs
     page = page_of(refined, [rows, advice_rows, changes])
     assert "**Even.**" in page
     assert ("the first amplitude may be as even." in page) == unsure
@@ -520,9 +514,7 @@ def test_a_spread_without_a_known_error_is_given(refined):
 
 
 def test_the_page_says_that_fast_parts_slide_away(refined):
-    steep = refined.assign(status=regimes.SLIDES_AWAY)
-    steep.attrs = refined.attrs
-    page = page_of(steep, advised())
+    page = page_of(refined.assign(status=regimes.SLIDES_AWAY), advised())
     assert page.index("## Where to run") < page.index("too steep") < page.index("**Fast for nearly all parts.**")
     assert "too steep" not in page_of(refined, advised())
 
@@ -537,16 +529,14 @@ def test_the_first_line_says_that_the_range_ends(refined):
         f"**{low} `operating.acceleration.start`.**" in first and f"**{high} `operating.acceleration.stop`.**" in first
     )
     wide = pd.concat([tables[0], tables[0].assign(acceleration=[20.0, 90.0])])
-    wide.attrs = tables[0].attrs
     assert "was examined" not in page_of(refined, [wide, *tables[1:]]).splitlines()[2]
 
 
 def test_the_page_says_that_parts_do_not_arrive(refined):
     tables = advised()
     assert "do not arrive" not in page_of(refined, tables)
-    late = tables[1].assign(late=0.9)
-    late.attrs = tables[1].attrs
-    page = page_of(refined, [tables[0], late, tables[2]])
+    tables[1]["late"] = 0.9
+    page = page_of(refined, tables)
     assert "Most parts do not arrive in this time: raise `transit.longest`" in page
 
 
@@ -844,10 +834,9 @@ def test_the_chart_says_what_the_supply_does_and_how_exactly_a_controller_must_h
     rows, advice_rows, changes = advised()
     assert "What the supply does" not in page_of(refined, [rows, advice_rows, changes])
     own = {"voltage": 0.05, "frequency": 0.5, "resonance": 52.0, "damping_ratio": 0.02, "force": "voltage²"}
-    attrs = {**advice_rows.attrs, "range": [0.74, 1.38], "supply": own}
+    advice_rows.attrs |= {"range": [0.74, 1.38], "supply": own}
     held = {"lowest": 22.9, "highest": 42.8, "worst": 38.0, "held_low": 30.0, "held_high": 32.5}
     advice_rows = advice_rows.assign(**held)
-    advice_rows.attrs = attrs
     page = " ".join(page_of(refined, [rows, advice_rows, changes]).split())
     assert (
         "its resonance at 52 Hz (damping ratio 0.02). At 50 Hz, a force drives it that grows with the square of" in page
@@ -860,7 +849,5 @@ def test_the_chart_says_what_the_supply_does_and_how_exactly_a_controller_must_h
     assert "between 30 and 32.5 m/s² (-3.2 % to +4.8 %)" in page
     assert "% too large or too small" not in page
     assert "as far off as the supply makes it (-26 % to +38 %)" in page
-    one = rows[rows.acceleration == 31.0]
-    one.attrs = rows.attrs
-    page = page_of(refined, [one, advice_rows, changes])
+    page = page_of(refined, [rows[rows.acceleration == 31.0], advice_rows, changes])
     assert "have 1 cm/s instead of 2 cm/s.\n" in page and "a controller must hold" not in page

@@ -154,7 +154,6 @@ def test_the_page_does_not_take_the_end_of_a_ramp_for_the_end_of_a_motion(made, 
     paths = tuple(start.Path(flight, flight, flight) for flight in flights)
     limits = pd.DataFrame(start.limits_of(up, up[::-1], paths))
     ramps = tables["start"].assign(acceleration=np.resize(up, len(tables["start"])))
-    ramps.attrs = tables["start"].attrs
     changed = tables | {"start": ramps, "start_limits": limits}
     page = start_page.make(TEMPLATE, advice, *(changed[name] for name in start.TABLES))
     assert sentence in page.splitlines()[2]
@@ -212,7 +211,6 @@ def test_the_page_says_whether_it_matters_how_the_drive_is_switched_on(made):
 def test_pushes_that_change_nothing_have_a_sentence_in_place_of_a_table(made):
     advice, tables = made
     calm = tables["pushes"].assign(riding=0, made_jump=np.nan, jumping=12, made_ride=0.0)
-    calm.attrs = tables["pushes"].attrs
     page = start_page.make(TEMPLATE, advice, *((tables | {"pushes": calm})[name] for name in start.TABLES))
     assert page.count("no push of up to 30 cm/s away from the plate makes one ride") == 2
     assert "| Push" not in page

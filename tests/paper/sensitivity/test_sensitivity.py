@@ -77,7 +77,6 @@ def test_a_point_that_is_not_found_again_keeps_its_row_with_a_reason(tables):
 @pytest.mark.parametrize("rows", [4, 0])
 def test_a_conveyor_without_critical_heights_has_no_critical_amplitude(tables, rows):
     none = tables[2].assign(is_critical=False)
-    none.attrs = tables[2].attrs
     found = changes.make(tables[0].iloc[:rows], tables[1].iloc[:0], none, {**SETTINGS, "effort": 0.3, "model": MODEL})
     assert set(found["kind"]) == ({"fold", "grazing", "period_doubling"} if rows else set())
 
