@@ -12,7 +12,7 @@ if not (FOLDER / "scripts/conveyor_pipeline").is_dir():
 sys.path.insert(0, str(FOLDER / "scripts"))
 
 from conveyor_pipeline.config import ConfigError, load_config
-from conveyor_pipeline.config.files import DEFAULT_FILES, ROOT, USER_FILE
+from conveyor_pipeline.config.files import ROOT, USER_FILE
 
 min_version("9.27")
 
@@ -35,7 +35,7 @@ if set("{}") & set(os.path.relpath(ROOT)):
     )
 
 try:
-    loaded = load_config(DEFAULT_FILES, OVERLAYS, config)
+    loaded = load_config(OVERLAYS, config)
 except ConfigError as error:
     raise WorkflowError(str(error))
 config = loaded.config

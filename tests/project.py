@@ -204,7 +204,7 @@ class Project:
 
 def load(overlay: dict) -> dict:
     """The config of an overlay, as the Snakefile makes it."""
-    return load_config(DEFAULT_FILES, [], overlay).config
+    return load_config([], overlay).config
 
 
 def dry_run(overlay: dict, folder: Path, *targets: str) -> subprocess.CompletedProcess:

@@ -23,7 +23,7 @@ from project import (
 )
 
 from conveyor_pipeline.config import ConfigError, load_config
-from conveyor_pipeline.config.files import DEFAULT_FILES, read
+from conveyor_pipeline.config.files import read
 
 FAULTS = [
     (
@@ -77,7 +77,7 @@ def test_keys_are_in_the_order_of_the_first_file(tmp_path):
     file.write_text(yaml.safe_dump(overlay))
     as_snakemake_merges = merged(overlay, read_config(), overlay)
     assert list(as_snakemake_merges["sweeps"]["heights"]["axes"]) == ["z0", "acceleration"]
-    loaded = load_config(DEFAULT_FILES, [file], as_snakemake_merges)
+    loaded = load_config([file], as_snakemake_merges)
     assert list(loaded.config["sweeps"]["heights"]["axes"]) == ["acceleration", "z0"]
     assert loaded.config["sweeps"]["heights"]["axes"]["z0"]["num"] == 41
     assert list(loaded.config["figures"]) == list(read_config()["figures"])
@@ -88,8 +88,8 @@ def test_a_config_without_files_is_the_overlay_of_a_module(tmp_path):
     overlay = {"prefix": "mine", "model": {"frequency": 100, "mass": 1.0e-3}, "sweeps": {"one": {"axes": {"z0": [0]}}}}
     file = tmp_path / "mine.yaml"
     file.write_text(yaml.safe_dump(overlay))
-    loaded = load_config(DEFAULT_FILES, [], overlay)
-    from_file = load_config(DEFAULT_FILES, [file], overlay)
+    loaded = load_config([], overlay)
+    from_file = load_config([file], overlay)
     assert repr(loaded[:3]) == repr(from_file[:3])
     assert loaded.stated == from_file.stated
     assert not loaded.is_paper
@@ -100,7 +100,7 @@ def test_texts_of_numbers_are_numbers():
     """Other workflows read their config as YAML 1.1, in which 1e-8 is a text."""
     overlay = {"prefix": "mine", "solver": {"tolerance": "1e-8", "settling": "2e4"}, "sharing": {"rows": "20000"}}
     overlay |= {"model": {"z0": "1e-4", "damping": "0.3"}, "sweeps": {"one": {"axes": {"z0": ["0", "conveyor"]}}}}
-    config = load_config(DEFAULT_FILES, [], overlay).config
+    config = load_config([], overlay).config
     assert config["solver"]["tolerance"] == 1e-8
     assert repr(config["solver"]["settling"]) == "20000"
     assert repr(config["sharing"]["rows"]) == "20000"

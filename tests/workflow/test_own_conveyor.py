@@ -7,7 +7,6 @@ import yaml
 from project import ROOT, dry_run, load, merged, read_config
 
 from conveyor_pipeline.config import ConfigError, load_config, problems
-from conveyor_pipeline.config.files import DEFAULT_FILES
 
 # The examples that describe a whole conveyor: the contact of `measured` is not known, nor the drive of `accelerometer`.
 EXAMPLES = {
@@ -33,7 +32,7 @@ HARMONIC = {"order": 2, "along": 0.1, "along_phase": 0.0, "normal": 0.1, "normal
     ],
 )
 def test_another_value_makes_another_conveyor_and_a_restated_default_does_not(overlay, is_paper):
-    assert load_config(DEFAULT_FILES, [], overlay).is_paper == is_paper
+    assert load_config([], overlay).is_paper == is_paper
 
 
 @pytest.mark.parametrize(

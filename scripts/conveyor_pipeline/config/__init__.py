@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from conveyor_pipeline.config.checks import problems
+from conveyor_pipeline.config.checks import default_config, problems
 from conveyor_pipeline.config.derived import with_derived
 from conveyor_pipeline.config.entries import MEASURED_FILES, by_methods, with_tighter
 from conveyor_pipeline.config.errors import ConfigError, type_problems
-from conveyor_pipeline.config.files import merge, name_lines, read_all
+from conveyor_pipeline.config.files import merge, name_lines, read
 from conveyor_pipeline.config.model import MODEL, is_same_model
 from conveyor_pipeline.config.scales import to_si
 
@@ -46,17 +46,16 @@ def name_measurements(config: dict, files: Sequence[str | Path], contents: list[
                 config[section][key] = os.path.join(os.path.dirname(file), own[key])
 
 
-def load_config(default_files: Sequence[str | Path], overlay_files: Sequence[str | Path], config: dict) -> Loaded:
+def load_config(overlay_files: Sequence[str | Path], config: dict) -> Loaded:
     """The config of a run; ConfigError says what is wrong with it in at most six lines.
 
     Parameters
     ----------
-    default_files : the config of the paper
-    overlay_files : files that are merged over it. `config` contains them already; they are read again because keys keep
+    overlay_files : files over the default config. `config` contains them already; they are read again because keys keep
         the order of the first file that has them, and because names of measurements are relative to them
     config : Snakemake's merged config. As a module of another workflow, it is the only overlay
     """
-    paper, overlays = merge(*read_all(default_files)), read_all(overlay_files)
+    paper, overlays = default_config(), [read(file) for file in overlay_files]
     whole = merge(paper, *overlays, config)
     if errors := type_problems(whole):
         raise ConfigError(name_lines(errors, overlay_files))

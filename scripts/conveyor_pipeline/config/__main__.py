@@ -70,7 +70,7 @@ if __name__ == "__main__":
     given = parser.parse_args()
     defaults, overlays = map(os.path.relpath, DEFAULT_FILES), [os.path.relpath(USER_FILE), *given.file]
     try:
-        loaded = load_config(DEFAULT_FILES, overlays, {})
+        loaded = load_config(overlays, {})
     except ConfigError as error:
         sys.exit(str(error))
     print(

@@ -24,7 +24,7 @@ from conveyor_pipeline.config.entries import (
     variants,
 )
 from conveyor_pipeline.config.errors import format_key, suggest_name, type_problems
-from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
+from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read
 from conveyor_pipeline.config.model import MODEL, is_same_model
 from conveyor_pipeline.config.scales import faults_of_scales, to_si
 from conveyor_pipeline.config.schema import schema_at, unit_of
@@ -231,7 +231,7 @@ def all_checks() -> list[Callable[[dict, dict, dict], Iterator[str]]]:
 
 @cache
 def default_config() -> dict:
-    return merge(*read_all(DEFAULT_FILES))
+    return merge(*map(read, DEFAULT_FILES))
 
 
 def problems(config: dict, defaults: dict | None = None, stated: dict | None = None) -> list[str]:

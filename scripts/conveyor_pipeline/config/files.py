@@ -74,11 +74,6 @@ def name_lines(errors: Sequence[str], files: Sequence[str | Path]) -> list[str]:
     return named
 
 
-def read_all(files: Sequence[str | Path]) -> list[dict]:
-    """The contents of config files."""
-    return [read(file) for file in files]
-
-
 def merge(*configs: dict) -> dict:
     """A new config: each of `configs` merged over the previous ones, as Snakemake merges overlays.
 

@@ -11,7 +11,7 @@ from conveyor.parameters import RANGES
 from conveyor_pipeline.common import csv_table
 from conveyor_pipeline.common.csv_table import TableError
 from conveyor_pipeline.config import load_config
-from conveyor_pipeline.config.files import DEFAULT_FILES, merge
+from conveyor_pipeline.config.files import merge
 from conveyor_pipeline.machine.calibration import measurements
 from conveyor_pipeline.machine.calibration.measurements import EXAMPLE, HEADER_UNITS, MOST_BYTES, first_comments, wanted
 
@@ -235,11 +235,9 @@ def test_a_file_of_measurements_on_the_command_line_replaces_that_of_the_overlay
     for name in ("mine.csv", "other.csv"):
         (tmp_path / name).write_text(f"{HEAD}\n{GOOD}")
     files = [tmp_path / "mine.yaml"]
-    assert load_config(DEFAULT_FILES, files, overlay).config["calibration"]["measurements"] == str(
-        tmp_path / "mine.csv"
-    )
+    assert load_config(files, overlay).config["calibration"]["measurements"] == str(tmp_path / "mine.csv")
     given = {"calibration": {"measurements": str(tmp_path / "other.csv")}}
-    loaded = load_config(DEFAULT_FILES, files, merge(overlay, given))
+    loaded = load_config(files, merge(overlay, given))
     assert loaded.config["calibration"]["measurements"] == str(tmp_path / "other.csv")
 
 

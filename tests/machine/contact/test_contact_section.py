@@ -106,7 +106,7 @@ def test_the_origin_of_a_derived_value_is_shown(tmp_path, capsys):
 
     file = tmp_path / "mine.yaml"
     file.write_text(yaml.safe_dump(MINE, sort_keys=False))
-    loaded = load_config(DEFAULT_FILES, [str(file)], {})
+    loaded = load_config([str(file)], {})
     lines = list(show(loaded.merged, loaded.stated, [*map(str, DEFAULT_FILES), str(file)]))
     assert f"model.stiffness = 907567.0 N/m^p    # {file}:7: from the section contact" in lines
 

@@ -12,7 +12,7 @@ from conveyor.parameters import HARMONIC
 from conveyor_pipeline import make
 from conveyor_pipeline.common.csv_table import TableError, read_text
 from conveyor_pipeline.config import ConfigError, load_config
-from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
+from conveyor_pipeline.config.files import merge
 from conveyor_pipeline.machine.excitation.faults import MOST_SHARE
 from conveyor_pipeline.machine.excitation.harmonics import first_fit
 from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY, parse
@@ -236,7 +236,7 @@ def load(tmp_path, overlay, *others):
         folder.mkdir(exist_ok=True)
         files.append(folder / "mine.yaml")
         files[-1].write_text(yaml.safe_dump(content))
-    return load_config(DEFAULT_FILES, files, merge(*read_all(files))).config
+    return load_config(files, merge(overlay, *others)).config
 
 
 def test_random_times_may_be_equal_after_rounding():

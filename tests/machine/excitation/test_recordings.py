@@ -11,7 +11,7 @@ from accelerometer import Drive, check, table_of
 
 from conveyor_pipeline.common.csv_table import TableError, read_text
 from conveyor_pipeline.config import ConfigError, load_config
-from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read_all
+from conveyor_pipeline.config.files import read
 from conveyor_pipeline.machine.excitation import measure
 from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY, UNITS, turn
 from conveyor_pipeline.machine.excitation.sample_times import EVEN, ROUNDED, STAMPED, resolve
@@ -590,7 +590,7 @@ def load(tmp_path, text, **overlay):
     overlay = {"prefix": "mine", **overlay, "excitation": {"measured": "mine.csv", **overlay.get("excitation", {})}}
     file = tmp_path / "mine.yaml"
     file.write_text(yaml.safe_dump(overlay, allow_unicode=True))
-    return load_config(DEFAULT_FILES, [file], merge(*read_all([file]))).config
+    return load_config([file], read(file)).config
 
 
 def test_a_frequency_that_contradicts_the_overlay_is_refused(tmp_path):

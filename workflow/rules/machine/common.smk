@@ -28,5 +28,5 @@ def measured_file(section):
 def models_of_examples(wildcards):
     """A param: the models of the examples, without amplitude and initial condition, by name."""
     files = {name: ROOT / f"config/examples/{name}.yaml" for name in EXAMPLES}
-    configs = {name: load_config(DEFAULT_FILES, [file], {}).merged for name, file in files.items()}
+    configs = {name: load_config([file], {}).merged for name, file in files.items()}
     return {name: model_of(own, without=INITIAL_CONDITION) for name, own in configs.items()}
