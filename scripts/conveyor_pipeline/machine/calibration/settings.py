@@ -56,9 +56,7 @@ def calibration_settings(config: dict) -> dict:
     return {**box_of(config), **own, "ranges": ranges, "static_friction": static_friction, "model": model}
 
 
-# The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     **dict.fromkeys((f"calibration/{name}" for name in CALIBRATION_TABLES), calibration_settings),
 }
-# The key of the file of measurements that an overlay may name.
 MEASURED_FILES = {"calibration": "measurements"}

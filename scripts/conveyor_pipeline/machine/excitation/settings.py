@@ -66,13 +66,11 @@ def clean_drive_settings(config: dict) -> dict:
     return {**parts_settings(config), **config["clean_drive"]}
 
 
-# The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     **dict.fromkeys((f"excitation/{name}" for name in EXCITATION_TABLES), excitation_settings),
     "excitation/comparison": comparison_settings,
     "excitation/clean_drive": clean_drive_settings,
 }
-# The key of the file of measurements that an overlay may name.
 MEASURED_FILES = {"excitation": "measured"}
 # Where the config may have a key `dimensionless`: keys below each section, or () for the section itself.
 SCALED = {"clean_drive": ((),)}

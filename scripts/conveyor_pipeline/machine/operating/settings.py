@@ -267,7 +267,6 @@ def drive_settings(config: dict) -> dict:
 
 
 START_TABLES = ("start", "start_motions", "start_limits", "pushes")
-# The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     **dict.fromkeys(("operating/shares", "operating/regimes"), partial(box_settings, "operating")),
     "operating/transit": blocks_settings,

@@ -13,5 +13,4 @@ class Uncertainty(TypedDict):
 
 SECTIONS = {"uncertainty": described(Uncertainty, "check of the claims with tighter tolerances")}
 
-# The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {"results/claims": lambda config: {"claims": read_claims()}}

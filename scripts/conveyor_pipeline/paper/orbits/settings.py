@@ -105,7 +105,6 @@ def exponents_settings(config: dict) -> dict:
     return strobes_settings(config) | {"tolerance": SPECTRUM_TOLERANCE}
 
 
-# The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     **dict.fromkeys(("orbits/branches", "orbits/folds_and_doublings", "orbits/cascade"), branches_settings),
     **dict.fromkeys((f"orbits/{name}" for name in CERTIFIED_TABLES), certified_settings),

@@ -30,7 +30,6 @@ def curves_settings(config: dict) -> dict:
     return {**own, "model": model_of(config, "orbits", normal=True)}
 
 
-# The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     "sensitivity/changes": changes_settings,
     **dict.fromkeys(("sensitivity/continued", "sensitivity/meetings"), curves_settings),

@@ -79,7 +79,6 @@ def settling_settings(config: dict) -> dict:
     return {**solver, **config["settling_times"], "model": model_of(config, normal=True)}
 
 
-# The tables that are not entries, and the function that returns the settings of each.
 TABLE_SETTINGS = {
     "results/stability": itemgetter("stability"),
     "results/theory": lambda config: {"model": model_of(config)},
