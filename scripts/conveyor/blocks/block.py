@@ -24,7 +24,6 @@ SMALLEST, LARGEST = 1e-6, 10.0  # m, of a block's length and height
 # m², of `inertia`; a block with the largest one does not turn.
 LEAST_INERTIA, LARGEST_INERTIA = 1e-24, 1e12
 LONG = 1000  # excitation cycles of all blocks, which take some tenths of a second
-NO_DISTANCES = np.empty(0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,25 +96,24 @@ class BlockRun:
         # The run ends at its duration, so that the last step is the same for all times.
         moments, place = np.unique(np.append(times.ravel(), self.duration), return_inverse=True)
         rows = pack(self.conveyor, self.start)[None]
-        (samples,), _, _ = follow(rows, self.block, np.array([self.tilt]), moments[None], tolerance=self.tolerance)
+        (samples,), _ = follow(rows, self.block, np.array([self.tilt]), moments[None], tolerance=self.tolerance)
         samples = samples[place.ravel()[:-1]]
         return {name: samples[:, k].reshape(times.shape) for k, name in enumerate(block_motion.SAMPLES)}
 
 
-def follow(rows, block, tilts, times, *, tolerance, since=0.0, distances=NO_DISTANCES):
-    """What block_motion.follow fills: samples, shape (n, k, 6), arrivals, shape (n, d), and results, shape (n, 9)."""
+def follow(rows, block, tilts, times, *, tolerance, since=0.0, distance=math.inf):
+    """What block_motion.follow fills: samples, shape (n, k, 6), and results, shape (n, 9)."""
     n, k = times.shape
     inertia = (block.length**2 + block.height**2) / 12.0 if block.inertia is None else block.inertia
     blocks, since = np.tile([block.length, block.height, inertia], (n, 1)), np.full(n, since)
-    samples, arrivals = np.empty((n, k, len(block_motion.SAMPLES))), np.empty((n, len(distances)))
-    results = np.zeros((n, block_motion.RESULTS))
+    samples, results = np.empty((n, k, len(block_motion.SAMPLES))), np.zeros((n, block_motion.RESULTS))
     workspace = np.empty((4, STATE)), np.empty((STAGES, STATE)), np.empty((ROWS, CORNERS))
     times = np.array(times, order="C")  # numba would compile `follow` for each other layout
-    options = tolerance, times, since, samples, distances, arrivals, results, workspace
+    options = tolerance, times, since, samples, distance, results, workspace
     given = np.ascontiguousarray(rows), plate.count_harmonics(rows), blocks, tilts
     cycles = (times[:, -1] * rows[:, FREQUENCY]).sum()
     call_interruptibly(lambda: block_motion.follow(*given, *options), lambda: times.fill(0.0), is_long=cycles > LONG)
-    return samples, arrivals, results
+    return samples, results
 
 
 def simulate_block(
@@ -155,7 +153,7 @@ def simulate_block(
     duration, tolerance = check_time("duration", duration), check_tolerance(tolerance)
     before = (1.0 - LAST) * duration
     given = pack(conveyor, start)[None], block, np.array([tilt]), np.array([[before, duration]])
-    ((last, end),), _, (result,) = follow(*given, tolerance=tolerance, since=before)
+    ((last, end),), (result,) = follow(*given, tolerance=tolerance, since=before)
     code, largest_tilt, airtime, impact_speed, peak_force, *_ = result.tolist()
     known = 1.0 if code == OK else math.nan
     return BlockRun(
@@ -219,24 +217,22 @@ def block_transits(
     begin = check_column("begin", begin, rows.shape[:1], 0.0, LONGEST, unit="s").copy()
     if (begin > longest).any():
         raise ValueError(f"begin = {begin.max()!s} s is after longest = {longest!r} s")
-    arrival, travelled = np.empty((2, len(rows)))
-    results = np.empty((len(rows), block_motion.RESULTS))
+    travelled, results = np.empty(len(rows)), np.empty((len(rows), block_motion.RESULTS))
 
     def work(first, behind):
         part = slice(first, behind)
         given = rows[part], block, tilts[part], np.full((behind - first, 1), longest)
-        options = {"tolerance": tolerance, "since": begin[part], "distances": np.array([length])}
-        samples, arrivals, results[part] = follow(*given, **options)
-        arrival[part], travelled[part] = arrivals[:, 0], samples[:, 0, X]
+        samples, results[part] = follow(*given, tolerance=tolerance, since=begin[part], distance=length)
+        travelled[part] = samples[:, 0, X]
         return np.count_nonzero(results[part, block_motion.CODE] != OK)
 
     for_each_chunk(work, len(rows), threads=threads, chunk=16, progress=progress)
-    codes, largest_tilt, airtime, impact_speed, peak_force, *_ = results.T
+    codes, largest_tilt, airtime, impact_speed, peak_force, arrival, *_ = results.T
     late = np.isnan(arrival)
     ends = np.where(late, longest, arrival)
     known = np.where(ends > begin, 1.0, np.nan)
     columns = {
-        "arrival": arrival,
+        "arrival": arrival.copy(),
         "velocity": np.where(late, travelled, length) / ends,
         "impact_speed": known * impact_speed,
         "peak_force": known * rows[:, MASS] * peak_force,

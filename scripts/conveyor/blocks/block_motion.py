@@ -20,8 +20,8 @@ from .steps import PULL, STAGES, TOUCH, first_event, interpolate, take_step
 SAMPLES = ("x", "vx", "z", "vz", "angle", "spin")
 # Columns of the results of runs: the status code; the largest angle (rad); from the time `since` on, the time without
 # contact (s), the largest speed of approach of a corner (m/s) and the largest sum of contact forces per mass (m/s²);
-# numbers of steps and of events; numbers of times with a sample and of distances reached.
-CODE, TILT, AIRTIME, IMPACT_SPEED, PEAK_FORCE, STEPS, EVENTS, SAMPLED, ARRIVED = range(9)
+# the time (s) at which the centre arrives, NaN if it does not; numbers of steps, of events and of times with a sample.
+CODE, TILT, AIRTIME, IMPACT_SPEED, PEAK_FORCE, ARRIVAL, STEPS, EVENTS, SAMPLED = range(9)
 RESULTS = 9
 
 TURN = 2.0 * math.pi
@@ -118,10 +118,8 @@ def repeats(c, body, before, between):
 
 
 @compiled_entry
-def follow(
-    parameters, harmonics, bodies, tilts, tolerance, times, since, samples, distances, arrivals, results, workspace
-):
-    """Follow blocks until the last of their times, or until they are at the last distance.
+def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, samples, distance, results, workspace):
+    """Follow blocks until the last of their times, or until they arrive.
 
     Parameters
     ----------
@@ -130,15 +128,13 @@ def follow(
     bodies, tilts : length and height (m), moment of inertia per mass (m²), shape (n, 3); initial angles (rad)
     tolerance : relative error per step of the contact
     times, since : s, ascending, shape (n, k); s from which statistics count, shape (n,)
-    samples : shape (n, k, 6), filled with the columns SAMPLES at the times (z above that at rest); with distances, at
-        the last time only
-    distances, arrivals : m, ascending, shape (d,); filled with the times (s) at which a centre is first there, (n, d)
+    samples : shape (n, k, 6), filled with the columns SAMPLES at the times (z above that at rest); on a track, at the
+        last time only
+    distance : m, at which a centre arrives; infinite without a track
     results : zeros of the shape (n, 9), filled with the columns above
     workspace : arrays to work in, of the shapes (4, 6), (7, 6) and (12, 4); the caller holds them
     """
-    parameters, bodies, times, samples, distances, arrivals, results = no_refcount(
-        (parameters, bodies, times, samples, distances, arrivals, results)
-    )
+    parameters, bodies, times, samples, results = no_refcount((parameters, bodies, times, samples, results))
     (states, stages, now) = no_refcount(workspace)
     # `before` is the state one block of cycles ago.
     state, after, between, before = no_refcount((states[0], states[1], states[2], states[3]))
@@ -154,7 +150,7 @@ def follow(
             z0 = plate.height(c, *plate.sine_and_cosine(theta))
         state[X], state[Z], state[ANGLE] = 0.0, z0 + body.half_height, tilts[i]
         state[VX], state[VZ], state[SPIN] = 0.0, parameters[i, VZ0], 0.0
-        result[TILT] = abs(tilts[i])
+        result[TILT], result[ARRIVAL] = abs(tilts[i]), math.nan
         now[:] = 0.0
         corners.locate(c, body, theta, state, now)
         touching = False
@@ -170,7 +166,7 @@ def follow(
         # without contact before the block.
         before[:] = math.inf
         block, furthest, airtime = CYCLES * TURN / c.omega, 0.0, 0.0
-        due = block if len(distances) > 0 else math.inf
+        due = block if distance < math.inf else math.inf
         length, known = 0.01 * LONGEST * TURN / c.omega, False
         code = OK
         while True:
@@ -234,10 +230,10 @@ def follow(
                     interpolate(state, lapse, stages, after, (due - t) / lapse, between)
                 advance = between[X] - before[X]
                 if repeats(c, body, before, between):
-                    # Blocks are left out up to one before the end or the next distance.
+                    # Blocks are left out up to one before the end or the arrival.
                     blocks = (end - due) / block - 1.0
                     if advance > 0.0:
-                        blocks = min(blocks, (distances[int(result[ARRIVED])] - furthest) / advance - 1.0)
+                        blocks = min(blocks, (distance - furthest) / advance - 1.0)
                     skipped = max(math.floor(blocks), 0.0)
                     result[AIRTIME] += skipped * (result[AIRTIME] - airtime)
                     t += skipped * block
@@ -247,10 +243,8 @@ def follow(
                     between[X] += skipped * advance
                 copy(before, between)
                 airtime, due = result[AIRTIME], due + (skipped + 1.0) * block
-            while result[ARRIVED] < len(distances) and after[X] >= distances[int(result[ARRIVED])]:
-                share = (distances[int(result[ARRIVED])] - state[X]) / (after[X] - state[X])
-                arrivals[i, int(result[ARRIVED])] = t + share * lapse
-                result[ARRIVED] += 1.0
+            if after[X] >= distance:
+                result[ARRIVAL] = t + (distance - state[X]) / (after[X] - state[X]) * lapse
             t = end if lapse >= end - t else t + lapse
             theta = (theta + c.omega * lapse) % TURN
             finite = True
@@ -261,7 +255,7 @@ def follow(
                 code = NOT_FINITE
                 break
             # Ctrl-C sets the times to zero.
-            if t >= times[i, -1] or (len(distances) > 0 and result[ARRIVED] == len(distances)):
+            if t >= times[i, -1] or after[X] >= distance:
                 break
             # What follows the piece.
             if not flying:
@@ -296,4 +290,3 @@ def follow(
                 corners.choose_modes(c, body, theta, state, now, slips)
         result[CODE] = code
         samples[i, int(result[SAMPLED]) :] = math.nan
-        arrivals[i, int(result[ARRIVED]) :] = math.nan
