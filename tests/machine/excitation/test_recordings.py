@@ -385,13 +385,6 @@ def test_means_that_are_not_gravity_are_refused_with_the_unit_or_factor(factor, 
     assert message in fault_of(text_of(TIMES, factor * READINGS), **settings)
 
 
-@pytest.mark.parametrize(
-    ("factor", "unit"), [(1000.0, "mm/s²"), (1000.0 / STANDARD_GRAVITY, "mg"), (1.0 / STANDARD_GRAVITY, "g")]
-)
-def test_units_are_converted(factor, unit):
-    assert_right(estimates(text_of(TIMES, factor * READINGS), unit=unit))
-
-
 def test_an_error_of_the_mount_below_the_noise_of_gravity_is_part_of_the_standard_errors():
     """The mean of the noise may hide 0.8°, so no mount is more exact than that."""
     for seed in range(8):
