@@ -12,6 +12,7 @@ from reference import reference_states
 from scipy.integrate import simpson
 
 from conveyor import Conveyor, Start, conveyor_and_start, parameter_table, plate_motion, simulate, sweep
+from conveyor.parameters import TENSION_MODES
 
 AT_REST = Conveyor(acceleration=0.0)
 FEEDER = Conveyor(acceleration=40.0, inclination=0.08, phase_shift=0.7, static_friction=0.2, psi0=0.3)
@@ -179,6 +180,7 @@ def energy_lack(run):
     friction=st.floats(0.0, 2.0),
     ratio=st.floats(1.0, 3.0),
     height=st.floats(0.0, 1e-3),
+    tension=st.sampled_from(TENSION_MODES),
 )
 def test_the_energy_of_the_part_is_the_work_of_the_forces_on_it(friction, ratio, height, **model):
     conveyor = Conveyor(friction=friction, static_friction=friction * ratio, **model)
