@@ -10,16 +10,6 @@ def shards_of_sweep(wildcards):
     return [table(f"shards/{wildcards.name}/{shard}") for shard in range(SHARDS[wildcards.name])]
 
 
-def no_input_of_shard(wildcards):
-    """No input; an error for a shard that the sweep does not have."""
-    count = SHARDS[wildcards.name]
-    if int(wildcards.shard) >= count:
-        raise WorkflowError(
-            f"sweeps.{wildcards.name} has no shard {wildcards.shard}: with this config, it has {count} from 0 on"
-        )
-    return []
-
-
 def rows_of_shard(name, shard):
     """First row of a shard of a sweep, and the row after its last one."""
     first = shard * config["sharing"]["rows"]
@@ -32,7 +22,12 @@ def rows_of_shards(wildcards):
 
 
 def settings_of_shard(wildcards):
-    """The settings of the table, and the rows of the shard."""
+    """The settings of the table, and the rows of the shard; an error for a shard that the sweep does not have."""
+    count = SHARDS[wildcards.name]
+    if int(wildcards.shard) >= count:
+        raise WorkflowError(
+            f"sweeps.{wildcards.name} has no shard {wildcards.shard}: with this config, it has {count} from 0 on"
+        )
     rows = rows_of_shard(wildcards.name, int(wildcards.shard))
     return settings_of_table(f"sweeps/{wildcards.name}") | {"rows": rows}
 

@@ -25,8 +25,6 @@ rule sweeps:
 
 rule shards:
     """Some rows of a sweep of several jobs."""
-    input:
-        no_input_of_shard,
     output:
         sweeps=table("shards/{name}/{shard}"),
     log:
