@@ -12,7 +12,6 @@ from project import ROOT, si_config
 from conveyor import Columns, Conveyor, Start, classify, ensemble, parameter_table, plate_motion, simulate
 from conveyor_pipeline.common.labelling import label_entry
 from conveyor_pipeline.common.steepness import steepness
-from conveyor_pipeline.common.templates import format_range
 from conveyor_pipeline.config.tables import TABLES
 from conveyor_pipeline.machine.operating import (
     advice,
@@ -329,14 +328,6 @@ def test_boundaries_are_located_with_a_limited_number_of_amplitudes(monkeypatch)
     np.testing.assert_array_equal(np.unique(table.acceleration), np.linspace(20.0, 60.0, 9))
     table.attrs = SETTINGS
     assert regimes.summarize_shares(table)["located"] == 5.0 / 35.0
-
-
-@pytest.mark.parametrize(
-    ("ends", "words"),
-    [((0.0648, 0.141), "0.0648 to 0.141"), ((0.1, 0.10001), "0.1"), ((np.nan, np.nan), "not known")],
-)
-def test_numbers_in_words(ends, words):
-    assert format_range(ends) == words
 
 
 def test_chaos_begins_at_its_lowest_amplitude(refined):
