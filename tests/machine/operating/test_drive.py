@@ -280,13 +280,6 @@ def test_the_search_counts_the_harmonics_of_the_model():
     assert objectives[2] == peaks.acceleration[0]
 
 
-def test_a_design_without_harmonics_has_its_amplitude_as_its_peak():
-    designs = np.random.default_rng(1).uniform(*np.array(list(SETTINGS["bounds"].values())).T, (100, 4))
-    peaks = drive.peaks_of(designs, SETTINGS["model"])
-    assert (peaks.acceleration == designs[:, 0]).all()
-    assert (peaks.displacement == designs[:, 0] / (2.0 * math.pi * designs[:, 1]) ** 2).all()
-
-
 def test_a_design_keeps_the_harmonics_of_the_model():
     model = drive.model_of(np.array([40.0, *PAPER]), {"friction": 0.15, "harmonics": [{"order": 3}]})
     assert model["harmonics"] == [{"order": 3}]
