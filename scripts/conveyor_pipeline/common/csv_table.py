@@ -133,10 +133,11 @@ def separator_of(lines: Sequence[str]) -> str:
     frequent one in the first line."""
     sampled = lines[:: max(1, len(lines) // SAMPLED)]
 
-    def score(separator: str) -> tuple[int, int, int]:
+    def score(separator: str) -> tuple[int, int, bool, int]:
         rows = [line for line in sampled if values_in(line, separator)]
-        texts = sum(not is_value(field) for line in rows for field in split(line, separator))
-        return len(rows), -texts, lines[0].count(separator)
+        fields = [field for line in rows for field in split(line, separator) if field]
+        texts = sum(not is_value(field) or field[-1] in ",;" for field in fields)
+        return len(rows), -texts, separator != " ", lines[0].count(separator)
 
     return max(SEPARATORS, key=score)
 

@@ -14,7 +14,7 @@ from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.files import read
 from conveyor_pipeline.machine.excitation import measure
 from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY, UNITS, turn
-from conveyor_pipeline.machine.excitation.sample_times import EVEN, ROUNDED, STAMPED, resolve
+from conveyor_pipeline.machine.excitation.sample_times import CHECKED, EVEN, ROUNDED, STAMPED, resolve
 
 PURE = Drive(cycles=100.0, rate=1600.0, noise=0.1, bias=(0.0, 0.0), mount=0.2)
 TIMES, READINGS = PURE.record()
@@ -136,11 +136,49 @@ def test_lost_samples_are_refused_also_where_they_look_like_harmonics(every):
 
 
 @pytest.mark.parametrize("ratio", [2.0, 2.5, 3.7])
-def test_a_slower_sensor_that_is_interpolated_is_refused(ratio):
+@pytest.mark.parametrize("columns", ["xz", "z"])
+def test_a_slower_sensor_that_is_interpolated_is_refused(ratio, columns):
     time, readings = sampled(1600.0, noise=0.3)
     finer = np.arange(int(ratio * (len(time) - 1))) / (ratio * 1600.0)
-    made = np.array([np.interp(finer, time, one) for one in readings])
-    assert "of its samples on straight lines" in fault_of(text_of(finer, made))
+    _, made = sampled(ratio * 1600.0, count=len(finer), noise=0.3)
+    for name, one in zip("xz", readings, strict=True):
+        if name in columns:
+            made["xz".index(name)] = np.interp(finer, time, one)
+    assert f"of the samples of the column {columns[0]} on straight lines" in fault_of(text_of(finer, made))
+
+
+LATE = {  # what happens to a part of a long recording, from then on, and a part of the message
+    "the drive stops": (lambda time, readings: 0.0 * readings, "is not steady: its amplitude"),
+    "the amplitude rises": (lambda time, readings: 1.5 * readings, "is not steady: its amplitude"),
+    "samples are lost": (lambda time, readings: readings[:, np.arange(len(time)) * 10 // 9 % len(time)], "lost"),
+}
+
+
+@pytest.mark.parametrize("change", LATE)
+def test_what_happens_late_in_a_long_recording_is_refused(change):
+    change, message = LATE[change]
+    time, readings = sampled(1600.0, count=50_000)
+    late, offsets = time > 22.0, np.array(PURE.offsets)[:, None]
+    assert np.count_nonzero(~late) > CHECKED
+    readings[:, late] = change(time[late], readings[:, late] - offsets) + offsets
+    text = text_of(time, readings)
+    check(text, PURE.settings)  # the start of a build looks at the beginning alone
+    with pytest.raises(TableError, match=message):
+        measure.make(text, {**PURE.settings, "measured": "mine.csv"})
+
+
+def test_a_wrong_scale_of_one_axis_is_part_of_the_error_of_the_angle():
+    drive = replace(PURE, mount=0.0)
+    time, readings = drive.record()
+    for scale in (0.95, 1.05):
+        values, errors, *_ = estimates(text_of(time, readings * [[1.0], [scale]]), mount=0.0)
+        assert abs(values["angle"] - drive.angle) < 2.5 * errors["angle"]
+
+
+@pytest.mark.parametrize("settings", [{}, {"time_unit": "s"}])
+def test_times_in_minutes_are_refused(settings):
+    fault = fault_of(text_of(TIMES / 60.0, READINGS, header="time (min),x,z", digits=9), **settings)
+    assert "states times in min; export them in one of s, ms" in fault
 
 
 def test_a_drive_that_hunts_is_called_so():
@@ -469,6 +507,15 @@ SPELLINGS = {
         lines[0],
         *(clock(line, "28.02.2026 23:59:{:09.6f}", "01.03.2026 00:00:{:09.6f}") for line in lines[1:]),
     ],
+    "tabs and names of several words": lambda lines: [
+        "Time (s)\tAcceleration X (m/s^2)\tAcceleration Z (m/s^2)",
+        *(line.replace(",", "\t") for line in lines[1:]),
+    ],
+    "commas and spaces": lambda lines: [
+        "Time (s), X (m/s^2), Z (m/s^2)",
+        *(line.replace(",", ", ") for line in lines[1:]),
+    ],
+    "a tab at the end": lambda lines: [f"{line}\t".replace(",", "\t") for line in lines],
     "nanoseconds": lambda lines: [
         "timestamp (ns),x,z",
         *(

@@ -20,6 +20,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
@@ -173,7 +174,8 @@ def parameters(
     """Value and standard error of each of PARAMETERS.
 
     Where gravity deviates, the scale or the mount of the sensor is wrong by this much, or not at all, if the sensor has
-    an offset. An interval contains both, so the deviation widens it once, beside the noise.
+    an offset. An interval contains both, so the deviation widens it once, beside the noise. The scale may be that of
+    one axis alone, which changes the angle.
 
     rate_error : relative standard error of the sampling rate
     """
@@ -199,16 +201,18 @@ def parameters(
     }
     values = values_of(fit.amplitudes, fit.frequency)
 
-    def change(name: str, mount: float, scale: float, rate: float) -> float:
-        others = values_of((1.0 + scale) * turn(fit.amplitudes, mount), fit.frequency * (1.0 + rate))
+    def change(name: str, mount: float, scale: ArrayLike, rate: float) -> float:
+        scales = 1.0 + np.broadcast_to(scale, 2)[:, None]
+        others = values_of(scales * turn(fit.amplitudes, mount), fit.frequency * (1.0 + rate))
         return wrap(others[name] - values[name]) if name == "phase_shift" else others[name] - values[name]
 
     found = gravity.found
+    scales = (found.size - 1.0) * np.array([[1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])  # of both axes, or of one
     return {
         name: (
             values[name],
             math.hypot(noise.student * math.sqrt(errors[name]), change(name, found.noise, found.noise, rate_error))
-            + abs(change(name, found.lean, found.size - 1.0, 0.0)) / NORMAL,
+            + max(abs(change(name, found.lean, scale, 0.0)) for scale in scales) / NORMAL,
         )
         for name in PARAMETERS
     }

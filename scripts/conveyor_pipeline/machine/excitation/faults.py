@@ -48,7 +48,7 @@ LEAST_CYCLES = 8
 LEAST_PER_CYCLE = 8  # samples; with fewer, harmonics of low orders are aliased
 # Amplitudes (m/s²) of which one unit or the other is wrong: no plate has less to convey with, or survives more.
 LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
-MOST_DISPLACEMENT = 0.1  # m
+MOST_DISPLACEMENT = 0.03  # m: slow shaking conveyors have up to 20 mm
 LEAST_FREQUENCY = 3.0  # Hz; with half of gravity, a plate would move by 14 mm
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
 DIFFERENT = 2.0  # difference of two frequencies in units of 1/T
@@ -194,22 +194,21 @@ def interpolation_faults(recording: Recording) -> Iterator[tuple[int | None, str
     """Samples on straight lines between those that a slower sensor has measured."""
     intervals = np.maximum(np.diff(recording.time), 1e-12)
     weight = intervals[1:] / (intervals[1:] + intervals[:-1])
-    shares = []
-    for readings, quantum in zip(recording.readings, recording.quanta, strict=True):
+    for key, readings, quantum in zip(recording.columns, recording.readings, recording.quanta, strict=True):
         between = weight * readings[:-2] + (1.0 - weight) * readings[2:]
         off = np.abs(readings[1:-1] - between) / quantum
         # The roundings of three readings are at most one step. Of a wave, or noise, more lie within the next two steps,
         # unless nearly all do.
         on, near, far = off < 1.01, (off >= 1.01) & (off < 3.01), off >= 3.01
         share = min(part.mean() for part in np.array_split(on, PIECES))
-        shares.append(share if share > LINES and on.mean() > STRAIGHT * near.mean() and far.mean() > LINES else 0.0)
-    if min(shares) > 0.0:
-        yield (
-            None,
-            f"has {100.0 * min(shares):.0f} % of its samples on straight lines between the samples beside them, as "
-            "where a slower sensor is interpolated, which makes amplitudes and harmonics smaller; export the samples "
-            "as they were measured",
-        )
+        if share > LINES and on.mean() > STRAIGHT * near.mean() and far.mean() > LINES:
+            yield (
+                None,
+                f"has {100.0 * share:.0f} % of the samples of the column {recording.names[key].lstrip('-')} on "
+                "straight lines between the samples beside them, as where a slower sensor is interpolated, which makes "
+                "amplitudes and harmonics smaller; export the samples as they were measured",
+            )
+            return
 
 
 def count_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
@@ -371,8 +370,11 @@ def is_unsteady(steady: Mapping[str, float]) -> bool:
 def phase_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """A phase that wanders, so far that the fundamental gets smaller in some pieces, though the vibration does not."""
     steady = steadiness(signal.time, signal.fitted)
-    turns = is_unsteady(steady) and size_deviation(signal, steady["pieces"]) < 0.5 * steady["deviation"]
-    if turns or steady["wander"] > MOST_WANDER:
+    size = size_deviation(signal, steady["pieces"])
+    # Where a drive stops, the phase is that of noise.
+    if (is_unsteady(steady) and size < 0.5 * steady["deviation"]) or (
+        steady["wander"] > MOST_WANDER and size < UNSTEADY
+    ):
         yield (
             None,
             f"has a phase that wanders by {steady['wander']:.2g} rad (standard deviation) against "
@@ -406,9 +408,10 @@ def frequency_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     acceleration = float(np.hypot(*signal.sizes))
     displacement = acceleration / (2.0 * math.pi * frequency) ** 2
     has_unit = size_fault(gravity_of(signal.fitted, 0.0), acceleration, signal.recording.unit) is None
-    if has_unit and displacement > MOST_DISPLACEMENT:
-        # The unit in which the frequency would be one of a conveyor.
-        scales = {name: scale / TIME_UNITS[signal.recording.time_unit] for name, scale in TIME_UNITS.items()}
+    if has_unit and displacement > MOST_DISPLACEMENT and acceleration < MOST_ACCELERATION:
+        # Another unit in which the frequency would be one of a conveyor.
+        stated_unit = signal.recording.time_unit
+        scales = {name: scale / TIME_UNITS[stated_unit] for name, scale in TIME_UNITS.items() if name != stated_unit}
         fits = [name for name, scale in scales.items() if LEAST_FREQUENCY < frequency / scale < MOST_FREQUENCY]
         remedy = f"set excitation.time_unit: {fits[0]} if that is the unit of the times, or " if fits else ""
         yield (
@@ -493,6 +496,24 @@ def signal_of(recording: Recording, settings: Mapping[str, Any]) -> Signal:
     time = recording.time[:CHECKED]
     fitted, other = first_fit(time, recording.acceleration[:, :CHECKED])
     return Signal(recording, fitted, other, modulation_of(time, fitted), settings)
+
+
+def later_faults(
+    recording: Recording, fitted: Fit, other: tuple[float, float] | None, settings: Mapping[str, Any]
+) -> list[tuple[int | None, str]]:
+    """The faults behind the samples that `checked` has seen, in pieces of as many samples, and changes between pieces.
+
+    fitted, other : of the whole recording, see `Signal`
+    """
+    count = len(recording.time)
+    for end in [*range(2 * CHECKED, count, CHECKED), count] if count > CHECKED else ():
+        kept = np.arange(count) >= end - CHECKED
+        piece = keep(recording, kept & (np.arange(count) < end))._replace(others=())
+        if faults := first_faults(signal_of(piece, settings), OF_SIGNAL):
+            lines = f"in the lines {piece.lines[0]:,} to {piece.lines[-1]:,}, it"
+            return [(line, fault if line else f"{lines} {fault}") for line, fault in faults]
+    whole = Signal(recording, fitted, other, modulation_of(recording.time, fitted), settings)
+    return first_faults(whole, ((phase_faults,), (steadiness_faults,)))
 
 
 def first_faults(subject: Any, groups: tuple) -> list[tuple[int | None, str]]:

@@ -7,6 +7,7 @@ from scipy.ndimage import median_filter
 
 from conveyor_pipeline.common import csv_table, fields
 from conveyor_pipeline.machine.excitation.estimates import NORMAL, PARAMETERS, harmonics, noise_of, parameters
+from conveyor_pipeline.machine.excitation.faults import later_faults
 from conveyor_pipeline.machine.excitation.gravity import gravity_of
 from conveyor_pipeline.machine.excitation.harmonics import (
     Fit,
@@ -178,6 +179,8 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
     recording = resolve(parse(table, settings))
     rate = sampling_rate(recording.time)
     first, other = first_fit(recording.time, recording.acceleration)
+    if faults := later_faults(recording, first, other, settings):
+        raise table.error(faults)
     orders = orders_of(rate, first.frequency)
     fitted, *others = (
         fit(one.time, one.acceleration, first.frequency, orders) for one in (recording, *recording.others)

@@ -26,7 +26,7 @@ def drive_of(parameters: pd.DataFrame) -> dict[str, float]:
 def make(parameters: pd.DataFrame, harmonics: pd.DataFrame) -> str:
     """The overlay as text."""
     lines = [
-        f"  {row.parameter}: {row.value:.{DIGITS - 1}e}   # {row.unit}, standard error {row.stderr:.1g}"
+        f"  {row.parameter}: {row.value:.{DIGITS - 1}e}   # {row.unit}, standard error {row.stderr:.2g}"
         for row in parameters.itertuples()
     ]
     shares = [

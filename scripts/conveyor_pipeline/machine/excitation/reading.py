@@ -23,7 +23,8 @@ SPELLINGS = {
     **{"msec": "ms", "milliseconds": "ms", "us": "µs", "usec": "µs", "μs": "µs", "microseconds": "µs"},
     **{"nanoseconds": "ns", "hh:mm:ss": "s"},
 }
-HEADER_UNITS = (*UNITS, *TIME_UNITS, *SPELLINGS)
+LONG_UNITS = ("min", "minutes", "h", "hours", "d", "days")  # of times, which nobody writes with enough digits
+HEADER_UNITS = (*UNITS, *TIME_UNITS, *SPELLINGS, *LONG_UNITS)
 # The axes of the plate, which are columns of a file, in words.
 DIRECTIONS = {"along": "along the track", "normal": "normal to the track"}
 AXES, SENSOR = tuple(DIRECTIONS), ("x", "z")  # the two pairs of columns
@@ -221,6 +222,10 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
         written = re.search(r"[ _](ms|us|µs|ns)$", names["time"], re.IGNORECASE)
         header = table.units[places["time"]] or (written[1].lower() if written else "")
         time_unit, more = unit_of(settings.get("time_unit"), [header], TIME_UNITS, "time_unit")
+        if header in LONG_UNITS:
+            more = [
+                f"states times in {header}; export them in one of {', '.join(TIME_UNITS)}, or state excitation.rate"
+            ]
         faults += more
     elif fault := rate_fault(table, rate):
         faults.append(fault)
