@@ -175,6 +175,15 @@ def test_a_wrong_scale_of_one_axis_is_part_of_the_error_of_the_angle():
         assert abs(values["angle"] - drive.angle) < 2.5 * errors["angle"]
 
 
+@pytest.mark.parametrize("share", [0.02, 0.15])
+def test_failed_readings_are_refused(share):
+    readings = READINGS.copy()
+    failed = np.flatnonzero(np.random.default_rng(2).random(len(TIMES)) < share)
+    readings[0, failed] = 0.0
+    message = f"mine.csv:{failed[0] + 2}: and {len(failed) - 1} further lines have x = 0, as where readings fail"
+    assert message in fault_of(text_of(TIMES, readings))
+
+
 @pytest.mark.parametrize("settings", [{}, {"time_unit": "s"}])
 def test_times_in_minutes_are_refused(settings):
     fault = fault_of(text_of(TIMES / 60.0, READINGS, header="time (min),x,z", digits=9), **settings)

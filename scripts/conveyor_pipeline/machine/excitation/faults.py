@@ -20,6 +20,7 @@ from conveyor_pipeline.machine.excitation.harmonics import (
     sampling_rate,
     steadiness,
 )
+from conveyor_pipeline.machine.excitation.limits import OTHER_FREQUENCY
 from conveyor_pipeline.machine.excitation.mixture import mixture_of
 from conveyor_pipeline.machine.excitation.modulation import (
     Jump,
@@ -52,7 +53,6 @@ MOST_DISPLACEMENT = 0.03  # m: slow shaking conveyors have up to 20 mm
 LEAST_FREQUENCY = 3.0  # Hz; with half of gravity, a plate would move by 14 mm
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
 DIFFERENT = 2.0  # difference of two frequencies in units of 1/T
-OTHER_FREQUENCY = 0.01  # relative difference from a stated frequency: more than clocks differ, and than a motor slips
 LEAST_CHANGE = 0.01  # of gravity, where another sensor begins
 CHANCE = 1e-4  # that noise alone looks like a jump of the phase or the amplitude
 MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
@@ -166,7 +166,17 @@ def reading_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
             yield (
                 int(recording.lines[sample]),
                 f"{name} = {readings[sample] / scale:.4g} stands out of all other values; check the cable, and "
-                f"{remedy_of_line(recording.sampling == 'rate')}",
+                f"readings fail; {remedy_of_line(recording.sampling == 'rate')}",
+            )
+            return
+        values, counts = np.unique(readings, return_counts=True)
+        most = int(np.argmax(np.where((values > values[0]) & (values < values[-1]), counts, 0)))
+        # Where most values are different, noise hardly repeats one.
+        if counts[most] > LEAST_FLAT and len(values) > 0.5 * len(readings):
+            yield (
+                int(recording.lines[np.argmax(readings == values[most])]),
+                f"and {counts[most] - 1:,} further lines have {name} = {values[most] / scale:.4g}, as where "
+                f"readings fail; {remedy_of_line(recording.sampling == 'rate')}",
             )
             return
         if (sample := clipped(readings, recording.quanta.max())) is not None:

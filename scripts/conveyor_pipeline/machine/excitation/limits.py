@@ -1,4 +1,4 @@
-"""When harmonics of a drive matter, and the limits of a statement on them.
+"""Limits of the measured drive: when harmonics matter, a statement on them, and another frequency.
 
 Imported by the Snakefile: no slow imports.
 """
@@ -8,3 +8,4 @@ MATTERS = 0.05  # relative change of the slowest 5 % or of the median
 # harmonic, at any phase, the median in chaos changes by at most the one number, and the slowest 5 % of riding parts by
 # at least the other.
 STATEMENT = {"share": 0.05, "chaos": 0.05, "riding": 0.1}
+OTHER_FREQUENCY = 0.01  # relative difference from a stated frequency: more than clocks differ, and than a motor slips

@@ -8,7 +8,7 @@ from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.excitation import comparison as compared
 from conveyor_pipeline.machine.excitation.effects import MEASURES
 from conveyor_pipeline.machine.excitation.estimates import CHANCE, NORMAL
-from conveyor_pipeline.machine.excitation.limits import MATTERS, STATEMENT
+from conveyor_pipeline.machine.excitation.limits import MATTERS, OTHER_FREQUENCY, STATEMENT
 from conveyor_pipeline.machine.excitation.reading import AXES
 from conveyor_pipeline.machine.operating.populations import differences
 
@@ -62,6 +62,7 @@ def make(
             "quality": fit,
             "other": not math.isnan(fit["other_frequency"]),
             "chance": CHANCE,
+            "other_frequency": OTHER_FREQUENCY,
             "changes": changes,
             "matters": MATTERS,
             "verdict": verdict_of(list(changes.values()), max(most.values())),
