@@ -166,7 +166,7 @@ def reading_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
             yield (
                 int(recording.lines[sample]),
                 f"{name} = {readings[sample] / scale:.4g} stands out of all other values; check the cable, and "
-                f"readings fail; {remedy_of_line(recording.sampling == 'rate')}",
+                f"{remedy_of_line(recording.sampling == 'rate')}",
             )
             return
         values, counts = np.unique(readings, return_counts=True)
