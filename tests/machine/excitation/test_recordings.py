@@ -15,6 +15,7 @@ from conveyor_pipeline.config.files import read
 from conveyor_pipeline.machine.excitation import measure
 from conveyor_pipeline.machine.excitation.reading import MOST_BYTES, STANDARD_GRAVITY, UNITS, turn
 from conveyor_pipeline.machine.excitation.sample_times import CHECKED, EVEN, ROUNDED, STAMPED, resolve
+from conveyor_pipeline.machine.excitation.saturation import has_flat_tops
 
 PURE = Drive(cycles=100.0, rate=1600.0, noise=0.1, bias=(0.0, 0.0), mount=0.2)
 TIMES, READINGS = PURE.record()
@@ -182,6 +183,25 @@ def test_failed_readings_are_refused(share):
     readings[0, failed] = 0.0
     message = f"mine.csv:{failed[0] + 2}: and {len(failed) - 1} further lines have x = 0, as where readings fail"
     assert message in fault_of(text_of(TIMES, readings))
+
+
+@pytest.mark.parametrize("limit", [0.3, 0.5, 0.7])
+def test_peaks_that_are_cut_off_by_a_third_are_refused_also_at_few_phases(limit):
+    offset = PURE.offsets[0]
+    most = limit * np.abs(READINGS[0] - offset).max()
+    readings = READINGS.copy()
+    readings[0] = np.clip(readings[0], offset - most, offset + most)
+    readings[0] += 0.05 * np.random.default_rng(1).standard_normal(len(TIMES))
+    assert "has cut-off peaks in the column x" in fault_of(text_of(TIMES, readings))
+
+
+def test_random_harmonics_make_no_flat_tops():
+    random, theta = np.random.default_rng(1), 2.0 * np.pi * np.arange(2000) / 31.7
+    for _ in range(200):
+        wave = np.cos(theta)
+        for order in random.choice([2, 3, 4, 5], random.integers(0, 4), replace=False):
+            wave += random.uniform(0.0, 0.3) * np.cos(order * theta + random.uniform(0.0, 2.0 * np.pi))
+        assert not has_flat_tops(wave)
 
 
 @pytest.mark.parametrize("settings", [{}, {"time_unit": "s"}])

@@ -43,7 +43,7 @@ from conveyor_pipeline.machine.excitation.reading import (
     remedy_of_line,
 )
 from conveyor_pipeline.machine.excitation.sample_times import CHECKED, MOST_EQUAL, MOST_GAPS, keep, repeats, resolve
-from conveyor_pipeline.machine.excitation.saturation import is_cut_off
+from conveyor_pipeline.machine.excitation.saturation import has_flat_tops, is_cut_off
 
 LEAST_CYCLES = 8
 LEAST_PER_CYCLE = 8  # samples; with fewer, harmonics of low orders are aliased
@@ -58,6 +58,7 @@ CHANCE = 1e-4  # that noise alone looks like a jump of the phase or the amplitud
 MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
 MOST_RATE_ERROR = 2e-3  # relative standard error of the sampling rate
 MOST_SCATTER = 0.3  # rad, of the phase: times that the samples were not taken at
+NEIGHBOURS, REPEATED = 10, 10.0  # values on either side, and how many times more often one value may be read
 OUTLIER = 20.0  # times the 95 % quantile of a column, from which a sample is no vibration
 UNSTEADY = 0.15  # relative standard deviation of the amplitude, above which its mean is no parameter of the drive
 NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does not vibrate
@@ -70,6 +71,7 @@ LINES, STRAIGHT, PIECES = 0.1, 3.0, 8
 # Strips at the extreme, in halves of the span of the values; ratio of the first to the second; and how many times the
 # largest gap between phases, and the largest step, the first must be.
 HALVINGS, STEEP, GAPS = (5, 13), 8.0, 4.0
+LEAST_FOR_TOPS = 10.0  # samples in a cycle, with which the tops of a wave with harmonics do not look flat by chance
 
 
 def first_clipped(values: np.ndarray, quantum: float) -> int | None:
@@ -171,8 +173,10 @@ def reading_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
             return
         values, counts = np.unique(readings, return_counts=True)
         most = int(np.argmax(np.where((values > values[0]) & (values < values[-1]), counts, 0)))
+        near = counts[max(most - NEIGHBOURS, 0) : most + NEIGHBOURS + 1]
+        usual = (near.sum() - counts[most]) / (len(near) - 1)
         # Where most values are different, noise hardly repeats one.
-        if counts[most] > LEAST_FLAT and len(values) > 0.5 * len(readings):
+        if counts[most] > max(LEAST_FLAT, REPEATED * usual) and len(values) > 0.5 * len(readings):
             yield (
                 int(recording.lines[np.argmax(readings == values[most])]),
                 f"and {counts[most] - 1:,} further lines have {name} = {values[most] / scale:.4g}, as where "
@@ -330,11 +334,13 @@ def saturation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     recording, fitted = signal.recording, signal.fitted
     phases = np.sort(np.mod((recording.time - fitted.middle) * fitted.frequency, 1.0))
     gap = max(float(np.diff(phases).max()), 1.0 + phases[0] - phases[-1])
+    is_fine = signal.rate / fitted.frequency > LEAST_FOR_TOPS
     centred = signal.time - fitted.middle
     design = design_of(centred, centred[-1], fitted.frequency, fitted.orders)
     for key, readings in zip(recording.columns, recording.readings, strict=True):
         quantum = recording.quanta.max()
-        if flattened(readings, quantum, gap) or is_cut_off(readings[: len(centred)], quantum, design):
+        is_flat = flattened(readings, quantum, gap) or (is_fine and has_flat_tops(readings))
+        if is_flat or is_cut_off(readings[: len(centred)], quantum, design):
             yield (
                 None,
                 f"has cut-off peaks in the column {recording.names[key].lstrip('-')}; record again with a larger range "

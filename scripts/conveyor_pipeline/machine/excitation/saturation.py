@@ -14,6 +14,9 @@ LEAST = 8  # samples in a strip
 SURE, FLAT, EXPLAINED = 6.0, 4.0, 6.0
 CHANCE = 1e-3  # that more orders seem to explain the readings between the extremes better
 SINGULAR = 1e12  # condition number of samples at too few phases
+# Width of a strip at each extreme, as a share of the span, and the share of the readings in both strips that no wave of
+# a drive has: a cosine has 0.09 and 0.14, and 99.9 % of waves with up to three harmonics of up to 0.35 have less.
+FLAT_TOPS = ((0.02, 0.2), (0.05, 0.3))
 
 
 def exceeds(values: np.ndarray, quantum: float, design: np.ndarray, width: float) -> bool:
@@ -39,6 +42,14 @@ def exceeds(values: np.ndarray, quantum: float, design: np.ndarray, width: float
         if is_explained and excess > max(SURE * math.sqrt(variance * leverage), FLAT * flat):
             return True
     return False
+
+
+def has_flat_tops(readings: np.ndarray) -> bool:
+    """Whether readings, shape (n,), stay at both extremes as only a wave whose peaks are cut off by a third does."""
+    below, above = readings - readings.min(), readings.max() - readings
+    return any(
+        min((side <= width * below.max()).mean() for side in (below, above)) > share for width, share in FLAT_TOPS
+    )
 
 
 def is_cut_off(readings: np.ndarray, quantum: float, design: np.ndarray) -> bool:
