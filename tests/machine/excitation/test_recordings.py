@@ -168,6 +168,16 @@ def test_what_happens_late_in_a_long_recording_is_refused(change):
         measure.make(text, {**PURE.settings, "measured": "mine.csv"})
 
 
+@pytest.mark.parametrize(("frequency", "rate"), [(50.0, 1613.7), (6.0, 25_600.0)])
+def test_long_recordings_without_faults_are_accepted(frequency, rate):
+    drive = replace(PURE, frequency=frequency, acceleration=20.0, rate=rate, cycles=frequency * 70_000 / rate)
+    time, readings = drive.record(3)
+    text = text_of(time, readings)
+    assert len(check(text, PURE.settings).time) > 2 * CHECKED
+    made = measure.make(text, {**PURE.settings, "measured": "mine.csv"})
+    assert made["parameters"]["value"][0] == pytest.approx(20.0, rel=1e-3)
+
+
 def test_a_wrong_scale_of_one_axis_is_part_of_the_error_of_the_angle():
     drive = replace(PURE, mount=0.0)
     time, readings = drive.record()

@@ -507,25 +507,25 @@ OF_SIGNAL = (
 )
 
 
-def signal_of(recording: Recording, settings: Mapping[str, Any]) -> Signal:
+def signal_of(recording: Recording, settings: Mapping[str, Any], samples: int = CHECKED) -> Signal:
     """The first samples of a recording, with their fit."""
-    time = recording.time[:CHECKED]
-    fitted, other = first_fit(time, recording.acceleration[:, :CHECKED])
+    time = recording.time[:samples]
+    fitted, other = first_fit(time, recording.acceleration[:, :samples])
     return Signal(recording, fitted, other, modulation_of(time, fitted), settings)
 
 
 def later_faults(
     recording: Recording, fitted: Fit, other: tuple[float, float] | None, settings: Mapping[str, Any]
 ) -> list[tuple[int | None, str]]:
-    """The faults behind the samples that `checked` has seen, in pieces of as many samples, and changes between pieces.
+    """The faults behind the samples that `checked` has seen, in pieces, and changes between pieces.
 
     fitted, other : of the whole recording, see `Signal`
     """
-    count = len(recording.time)
-    for end in [*range(2 * CHECKED, count, CHECKED), count] if count > CHECKED else ():
-        kept = np.arange(count) >= end - CHECKED
-        piece = keep(recording, kept & (np.arange(count) < end))._replace(others=())
-        if faults := first_faults(signal_of(piece, settings), OF_SIGNAL):
+    count, place = len(recording.time), np.arange(len(recording.time))
+    length = max(CHECKED, math.ceil(2 * LEAST_CYCLES * sampling_rate(recording.time) / fitted.frequency))
+    for end in [*range(CHECKED + length, count, length), count] if count > CHECKED else ():
+        piece = keep(recording, (place >= end - length) & (place < end))._replace(others=())
+        if faults := first_faults(signal_of(piece, settings, length), OF_SIGNAL[1:]):
             lines = f"in the lines {piece.lines[0]:,} to {piece.lines[-1]:,}, it"
             return [(line, fault if line else f"{lines} {fault}") for line, fault in faults]
     whole = Signal(recording, fitted, other, modulation_of(recording.time, fitted), settings)
