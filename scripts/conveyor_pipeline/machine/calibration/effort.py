@@ -3,7 +3,7 @@
 # Of the search, by an effort of 1.
 FIRST = 256  # sets of parameters of the first round of the first step, which fills the ranges
 POINTS = 64  # of each further round
-ROUGH_ROUNDS, ROUNDS = 28, 16  # further rounds of the two steps of a search, at most
+ROUGH_ROUNDS, ROUNDS = 28, 16  # further rounds of the two steps of a search; it goes on for up to as many if needed
 ENOUGH = 100.0  # effective number of samples at which a search ends; the ends of an interval move little with more
 SEARCHES, MOST_SEARCHES = 3, 5  # independent ones, at first and at most
 # Effective number of samples from which a search has converged: one of the posterior, and one of an evidence.

@@ -153,12 +153,8 @@ def height_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tup
     for row in rows:
         own = {**model, **row.changed}
         shape = 1.0 + sum(harmonic["normal"] / harmonic["order"] ** 2 for harmonic in own.get("harmonics", ()))
-        stroke = (
-            row.acceleration
-            * math.sin(own.get("angle", 0.5 * math.pi))
-            / (2.0 * math.pi * own["frequency"]) ** 2
-            * shape
-        )
+        normal = row.acceleration * math.sin(own.get("angle", 0.5 * math.pi))
+        stroke = shape * normal / (2.0 * math.pi * own["frequency"]) ** 2
         if row.changed.get("z0", 0.0) < -stroke:
             fault = f"z0 = {row.changed['z0']:g} m is in the plate, which moves by at most ±{stroke:.3g} m"
             faults.append((row.line, f"{fault}; give the height above its mean position"))

@@ -387,10 +387,9 @@ def phase_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """A phase that wanders, so far that the fundamental gets smaller in some pieces, though the vibration does not."""
     steady = steadiness(signal.time, signal.fitted)
     size = size_deviation(signal, steady["pieces"])
+    turns = is_unsteady(steady) and size < 0.5 * steady["deviation"]
     # Where a drive stops, the phase is that of noise.
-    if (is_unsteady(steady) and size < 0.5 * steady["deviation"]) or (
-        steady["wander"] > MOST_WANDER and size < UNSTEADY
-    ):
+    if turns or (steady["wander"] > MOST_WANDER and size < UNSTEADY):
         yield (
             None,
             f"has a phase that wanders by {steady['wander']:.2g} rad (standard deviation) against "
