@@ -129,8 +129,8 @@ def values_in(line: str, separator: str) -> int:
 
 
 def separator_of(lines: Sequence[str]) -> str:
-    """The separator with which most lines hold values; of two, the one that leaves fewer other texts, or the more
-    frequent one in the first line."""
+    """The separator with which most lines hold values; of two, the one that leaves fewer other texts, then any but a
+    space, which also stands within names and behind commas, and then the more frequent one in the first line."""
     sampled = lines[:: max(1, len(lines) // SAMPLED)]
 
     def score(separator: str) -> tuple[int, int, bool, int]:

@@ -183,7 +183,7 @@ def test_a_wrong_scale_of_one_axis_is_part_of_the_error_of_the_angle():
     time, readings = drive.record()
     for scale in (0.95, 1.05):
         values, errors, *_ = estimates(text_of(time, readings * [[1.0], [scale]]), mount=0.0)
-        assert abs(values["angle"] - drive.angle) < 2.5 * errors["angle"]
+        assert abs(values["angle"] - drive.angle) < 2.5 * errors["angle"] < 0.025
 
 
 @pytest.mark.parametrize("share", [0.02, 0.15])

@@ -97,6 +97,19 @@ def clipped(readings: np.ndarray, quantum: float) -> int | None:
     return min((sample for sample in samples if sample is not None), default=None)
 
 
+def repeated_value(readings: np.ndarray) -> float | None:
+    """A value between the extremes that is read far more often than those beside it, as where readings fail, or None.
+
+    Where most values are different, noise hardly repeats one.
+    """
+    values, counts = np.unique(readings, return_counts=True)
+    most = int(np.argmax(np.where((values > values[0]) & (values < values[-1]), counts, 0)))
+    near = counts[max(most - NEIGHBOURS, 0) : most + NEIGHBOURS + 1]
+    usual = (near.sum() - counts[most]) / (len(near) - 1)
+    is_varied = len(values) > 0.5 * len(readings)
+    return float(values[most]) if is_varied and counts[most] > max(LEAST_FLAT, REPEATED * usual) else None
+
+
 def flattened(values: np.ndarray, quantum: float, gap: float) -> bool:
     """Whether values are cut off with some noise behind it, as by a sensor that saturates before its filter.
 
@@ -156,7 +169,7 @@ def gap_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
 
 
 def reading_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
-    """A column that is constant, has an outlier, or is cut off."""
+    """A column that is constant, has an outlier, has one value again and again, or is cut off."""
     for key, readings in zip(recording.columns, recording.readings, strict=True):
         name, scale = recording.names[key].lstrip("-"), UNITS[recording.unit]
         if np.ptp(readings) == 0.0:
@@ -171,15 +184,11 @@ def reading_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
                 f"{remedy_of_line(recording.sampling == 'rate')}",
             )
             return
-        values, counts = np.unique(readings, return_counts=True)
-        most = int(np.argmax(np.where((values > values[0]) & (values < values[-1]), counts, 0)))
-        near = counts[max(most - NEIGHBOURS, 0) : most + NEIGHBOURS + 1]
-        usual = (near.sum() - counts[most]) / (len(near) - 1)
-        # Where most values are different, noise hardly repeats one.
-        if counts[most] > max(LEAST_FLAT, REPEATED * usual) and len(values) > 0.5 * len(readings):
+        if (value := repeated_value(readings)) is not None:
+            is_failed = readings == value
             yield (
-                int(recording.lines[np.argmax(readings == values[most])]),
-                f"and {counts[most] - 1:,} further lines have {name} = {values[most] / scale:.4g}, as where "
+                int(recording.lines[np.argmax(is_failed)]),
+                f"and {np.count_nonzero(is_failed) - 1:,} further lines have {name} = {value / scale:.4g}, as where "
                 f"readings fail; {remedy_of_line(recording.sampling == 'rate')}",
             )
             return

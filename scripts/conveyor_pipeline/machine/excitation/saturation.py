@@ -14,8 +14,8 @@ LEAST = 8  # samples in a strip
 SURE, FLAT, EXPLAINED = 6.0, 4.0, 6.0
 CHANCE = 1e-3  # that more orders seem to explain the readings between the extremes better
 SINGULAR = 1e12  # condition number of samples at too few phases
-# Width of a strip at each extreme, as a share of the span, and the share of the readings in both strips that no wave of
-# a drive has: a cosine has 0.09 and 0.14, and 99.9 % of waves with up to three harmonics of up to 0.35 have less.
+# Width of a strip at each extreme, as a share of the span, and a share of the readings that no wave of a drive has in
+# each of both strips: a cosine has 0.09 and 0.14, and hardly any wave with three harmonics of up to 0.35 has more.
 FLAT_TOPS = ((0.02, 0.2), (0.05, 0.3))
 
 
