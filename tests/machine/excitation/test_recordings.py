@@ -554,7 +554,11 @@ SPELLINGS = {
         "Time (s), X (m/s^2), Z (m/s^2)",
         *(line.replace(",", ", ") for line in lines[1:]),
     ],
-    "a tab at the end": lambda lines: [f"{line}\t".replace(",", "\t") for line in lines],
+    "commas and tabs": lambda lines: [line.replace(",", ",\t") for line in lines],
+    "tabs, names of several words, and a tab at the end": lambda lines: [
+        "Time (s)\tAcceleration X (m/s^2)\tAcceleration Z (m/s^2)\t",
+        *(f"{line}\t".replace(",", "\t") for line in lines[1:]),
+    ],
     "nanoseconds": lambda lines: [
         "timestamp (ns),x,z",
         *(
