@@ -107,9 +107,10 @@ class ReturnMap:
 
     def strobes(self, unknown: np.ndarray) -> np.ndarray:
         """Unknowns after 1 … n cycles, shape (n, 3)."""
-        row = self.row(unknown[2])
+        row, value = self.row(unknown[2]), unknown[2] * self.unit[2]
         _, states, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, self.state(unknown), self.period)
-        return np.array([self.scaled(unknown[2] * self.unit[2], state) for state in states])
+        known = self.constants(value / self.unit[2])  # once for all states, as in `scaled` for one
+        return np.array([(*stroboscopic_map.smooth_state(known, state), value) for state in states]) / self.unit
 
     def linearised(self, unknown: np.ndarray, airborne: float = 0.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(δ, Y) after n cycles in their units, the matrices (SI units) and the features of all cycles.
