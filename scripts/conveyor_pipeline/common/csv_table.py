@@ -274,6 +274,8 @@ def number_signs(fields: Sequence[Any], separator: str) -> tuple[str, str]:
         a number that may have a decimal comma or thousands: each comma stands before three digits, and other numbers
         are short and have none. In a file with semicolons such a comma is decimal, unless its column has short numbers
     """
+    if not any(one.str.contains(r",|\..*\.").any() for one in fields):
+        return ".", ""  # as in most files, without a closer look at each number
     fields = [one[one.str.fullmatch(NUMBER.pattern)] for one in fields]
     commas = [one[one.str.contains(",", regex=False)] for one in fields]
     points = sum(int(one.str.contains(".", regex=False).sum()) for one in fields)
@@ -305,7 +307,8 @@ def to_numbers(texts: Any, signs: tuple[str, str]) -> Any:
     import pandas as pd
 
     decimal, thousands = signs
-    texts = texts.str.replace(r"(?<=\d)[\u00a0\u202f'](?=\d{3})", "", regex=True)
+    if texts.str.contains("[\u00a0\u202f']").any():
+        texts = texts.str.replace(r"(?<=\d)[\u00a0\u202f'](?=\d{3})", "", regex=True)
     if thousands:
         one = re.escape(thousands)
         is_grouped = texts.str.fullmatch(rf"[-+]?\d{{1,3}}({one}\d{{3}})*([^{one}\d].*)?|[^{one}]*")
