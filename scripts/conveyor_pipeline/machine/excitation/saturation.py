@@ -24,10 +24,12 @@ def exceeds(values: np.ndarray, quantum: float, design: np.ndarray, width: float
     from scipy.special import fdtri
 
     strip = values >= values.max() - width
+    if np.count_nonzero(strip) < LEAST:
+        return False
     between = (values > values.min() + 2.0 * width) & (values < values.max() - 2.0 * width)
     part, count, orders = design[:, between], np.count_nonzero(between), len(design) // 2 - 1
     gram, products = part @ part.T, part @ values[between]
-    if np.count_nonzero(strip) < LEAST or count <= 2 * len(design) or np.linalg.cond(gram) > SINGULAR:
+    if count <= 2 * len(design) or np.linalg.cond(gram) > SINGULAR:
         return False
     most = products @ np.linalg.solve(gram, products)
     variance = (values[between] @ values[between] - most) / (count - len(design))

@@ -69,18 +69,19 @@ def summarize_amplitudes(shares: pd.DataFrame) -> pd.DataFrame:
     """
     rows = []
     for acceleration, motions in shares.groupby("acceleration"):
-        velocity, best = motions.mean_velocity.to_numpy(), motions.mean_velocity.max(skipna=False)
-        reach_it = np.nan if np.isnan(best) else float(motions.share[same(velocity, best)].sum())
+        velocity, share = motions.mean_velocity.to_numpy(), motions.share.to_numpy()
+        best = velocity.max()
+        reach_it = np.nan if np.isnan(best) else float(share[same(velocity, best)].sum())
         rows.append(
             {
                 "acceleration": acceleration,
                 "regime": regime_of(motions.state.to_numpy(), velocity),
                 "best": best,
-                "slowest": motions.mean_velocity.min(skipna=False),
+                "slowest": velocity.min(),
                 "best_share": reach_it,
                 # Rounding may make the sum of shares slightly larger than 1.
                 "stderr": np.sqrt(max(reach_it * (1.0 - reach_it), 0.0) / motions.starts.sum()),
-                "mean": (motions.share * motions.mean_velocity).sum(skipna=False),
+                "mean": (share * velocity).sum(),
             }
         )
     return pd.DataFrame(rows)
