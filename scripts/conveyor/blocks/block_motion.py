@@ -4,18 +4,39 @@ In flight the centre follows a parabola and the block turns uniformly. A corner'
 the rotation. Its acceleration relative to the plate is at least -(g cos α + bound on z̈_s + |r| Ω²), with its distance
 |r| from the centre and the spin Ω. The parabola with this acceleration reaches the plate before the corner does, so
 that a step to its root is safe (see solver.flight for a point).
+
+What happens in a piece is copied into `follow` as machine code. Called, these functions would get all constants by
+value, and runs would take 1.7 times as long.
 """
 
 import math
 
 from ..solver import contact, plate
 from ..solver.flight import time_of_fall
-from ..solver.jit import compiled, compiled_entry, copy, no_refcount
+from ..solver.jit import compiled, compiled_entry, compiled_inline, copy, no_refcount
 from ..solver.model import VZ0, Z0
 from ..solver.status import IMPACT_LOST, NOT_FINITE, OK, TOO_MANY_EVENTS, TOO_STIFF
 from . import corners
-from .corners import ANGLE, CORNERS, FREE, GAP, MODE, PULLED, RATE, SLIP, SPIN, STATE, VX, VZ, X, Z
-from .steps import PULL, STAGES, TOUCH, first_event, interpolate, take_step
+from .corners import (
+    ANGLE,
+    CORNERS,
+    FORCE,
+    FORWARD,
+    FREE,
+    GAP,
+    MODE,
+    PULLED,
+    RATE,
+    SLIP,
+    SPIN,
+    STICK,
+    VX,
+    VZ,
+    WHOLE,
+    X,
+    Z,
+)
+from .steps import NONE, PULL, STAGES, TOUCH, first_event, interpolate, take_step
 
 SAMPLES = ("x", "vx", "z", "vz", "angle", "spin")
 # Columns of the results of runs: the status code; the largest angle (rad); from the time `since` on, the time without
@@ -85,7 +106,7 @@ def touch(now, margin):
     touching, speed = False, 0.0
     for i in range(CORNERS):
         if now[MODE, i] == FREE and now[GAP, i] <= margin and now[RATE, i] < 0.0:
-            now[MODE, i], now[PULLED, i] = corners.FORWARD, 0.0
+            now[MODE, i], now[PULLED, i] = FORWARD, 0.0
             speed = max(speed, -now[RATE, i])
         elif now[MODE, i] != FREE and now[GAP, i] >= (-margin if now[RATE, i] > 0.0 else margin):
             now[MODE, i] = FREE
@@ -98,7 +119,7 @@ def keep_sticking(now, state):
     """Remove the error of a step in the slip velocity of corners that stick."""
     total, count = 0.0, 0
     for i in range(CORNERS):
-        if now[MODE, i] == corners.STICK:
+        if now[MODE, i] == STICK:
             total += now[SLIP, i]
             count += 1
     if count > 0:
@@ -115,6 +136,121 @@ def repeats(c, body, before, between):
         abs(between[ANGLE] - before[ANGLE]) * reach <= depth and abs(between[SPIN] - before[SPIN]) * reach <= speed
     )
     return linear and turning and abs(between[Z] - before[Z]) <= depth
+
+
+@compiled
+def begin(c, body, parameters, tilt, state, now):
+    """Fill the `state` at the beginning of a run, and `now` there; returns whether a corner is in contact."""
+    theta, z0 = c.psi0 % TURN, parameters[Z0]
+    if math.isnan(z0):
+        z0 = plate.height(c, *plate.sine_and_cosine(theta))
+    state[X], state[Z], state[ANGLE] = 0.0, z0 + body.half_height, tilt
+    state[VX], state[VZ], state[SPIN] = 0.0, parameters[VZ0], 0.0
+    now[:] = 0.0
+    corners.locate(c, body, theta, state, now)
+    touching = False
+    for k in range(CORNERS):
+        if now[GAP, k] <= 0.0:
+            now[MODE, k], touching = FORWARD, True
+    corners.push(c, now)
+    for k in range(CORNERS):
+        now[PULLED, k] = 1.0 if now[WHOLE, k] < 0.0 else 0.0
+    if touching:
+        corners.choose_modes(c, body, theta, state, now, -1)
+    return touching
+
+
+@compiled_inline
+def press(c, body, theta, state, limit, length, known, stages, after, between, now):
+    """A step of the contact from a phase (rad), which ends at its first event and takes at most `limit` (s).
+
+    Fills the state `after` it, its stages, and `now` at its end.
+
+    length, known : s, which is tried first; whether the first of the stages has been filled
+
+    Returns
+    -------
+    code, lapse, kind, corner : code of status.STATUS; duration (s); the event and its corner, see steps.first_event
+    length, tried : of the next step (s); number of steps that were tried
+    """
+    tried = 0
+    while True:
+        if not known:
+            corners.derive(c, body, theta, state, now, stages[0])
+        lapse = min(length, LONGEST * TURN / c.omega, limit)
+        error = take_step(c, body, theta, state, lapse, stages, after, now)
+        tried += 1
+        if error <= 1.0:
+            break
+        # Also for an error that is not finite.
+        shrink = max(SAFETY * error**-0.2, LEAST) if math.isfinite(error) else LEAST
+        length, known = lapse * shrink, True
+        if length * c.omega < SHORTEST * TURN:
+            return TOO_STIFF, lapse, NONE, -1, length, tried
+    # A step that an event or the end cuts short says little of the next one.
+    longer = lapse * min(SAFETY * max(error, 1e-10) ** -0.2, MOST)
+    length = longer if lapse >= length else max(longer, length)
+    share, kind, corner = first_event(c, body, theta, state, lapse, stages, after, now, between)
+    if kind == NONE:
+        corners.derive(c, body, theta + c.omega * lapse, after, now, stages[STAGES - 1])
+    else:
+        lapse *= share
+        take_step(c, body, theta, state, lapse, stages, after, now)
+    return OK, lapse, kind, corner, length, tried
+
+
+@compiled_inline
+def move(c, flying, state, lapse, stages, after, tau, between):
+    """Fill the state `between`, a time `tau` (s) after the beginning of a flight or of a step of the contact."""
+    if flying:
+        fly(state, c.gravity, c.downhill, tau, between)
+    else:
+        interpolate(state, lapse, stages, after, min(tau / lapse, 1.0) if lapse > 0.0 else 1.0, between)
+
+
+@compiled_inline
+def largest_tilt(state, after, lapse):
+    """The largest size of the angle (rad) in a flight or a step, in which the spin is nearly linear in time."""
+    tilt = abs(after[ANGLE])
+    if state[SPIN] * after[SPIN] < 0.0:
+        top = state[ANGLE] + 0.5 * lapse * state[SPIN] * state[SPIN] / (state[SPIN] - after[SPIN])
+        tilt = max(tilt, abs(top))
+    return tilt
+
+
+@compiled_inline
+def blocks_to_skip(c, body, before, between, most, ahead):
+    """The number of blocks of cycles that a motion which repeats itself may leave out.
+
+    before, between : states at the beginning and at the end of a block
+    most, ahead : blocks up to the end of the run; m, up to the end of the track
+    """
+    advance = between[X] - before[X]
+    if not repeats(c, body, before, between):
+        return 0.0
+    # Up to one block before the end or the arrival.
+    return max(math.floor(min(most, ahead / advance if advance > 0.0 else math.inf) - 1.0), 0.0)
+
+
+@compiled_inline
+def go_on(c, body, theta, flying, kind, corner, state, now):
+    """Fill the modes of the corners that follow a flight or an event; `state` and `now` are those at this moment.
+
+    Returns whether a corner is in contact, and the largest speed of approach of a new contact (m/s).
+    """
+    touching, speed, slips = True, 0.0, -1
+    if flying or kind == TOUCH:
+        corners.locate(c, body, theta, state, now)
+        touching, speed = touch(now, corners.margins_of(c).gap)
+    elif kind == PULL:
+        now[PULLED, corner] = 1.0 - now[PULLED, corner]
+    elif now[MODE, corner] == STICK:
+        slips = corner
+    else:
+        state[VX] += now[SLIP, corner]  # which is zero but for the margin
+    if touching:
+        corners.choose_modes(c, body, theta, state, now, slips)
+    return touching, speed
 
 
 @compiled_entry
@@ -139,154 +275,82 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
     # `before` is the state one block of cycles ago.
     state, after, between, before = no_refcount((states[0], states[1], states[2], states[3]))
     for i in range(len(parameters)):
-        c = contact.compute_constants(parameters[i], tolerance, harmonics)
+        c, code, result = contact.compute_constants(parameters[i], tolerance, harmonics), OK, results[i]
         body = corners.Body(0.5 * bodies[i, 0], 0.5 * bodies[i, 1], bodies[i, 2])
-        margins = corners.margins_of(c)
-        end, cycles = times[i, -1], 1.0 + times[i, -1] * c.omega / TURN
-        result = results[i]
-        theta, t = c.psi0 % TURN, 0.0
-        z0 = parameters[i, Z0]
-        if math.isnan(z0):
-            z0 = plate.height(c, *plate.sine_and_cosine(theta))
-        state[X], state[Z], state[ANGLE] = 0.0, z0 + body.half_height, tilts[i]
-        state[VX], state[VZ], state[SPIN] = 0.0, parameters[i, VZ0], 0.0
+        theta, t, end, cycles = c.psi0 % TURN, 0.0, times[i, -1], 1.0 + times[i, -1] * c.omega / TURN
+        touching = begin(c, body, parameters[i], tilts[i], state, now)
         result[TILT], result[ARRIVAL] = abs(tilts[i]), math.nan
-        now[:] = 0.0
-        corners.locate(c, body, theta, state, now)
-        touching = False
-        for k in range(CORNERS):
-            if now[GAP, k] <= 0.0:
-                now[MODE, k], touching = corners.FORWARD, True
-        corners.push(c, now)
-        for k in range(CORNERS):
-            now[PULLED, k] = 1.0 if now[corners.WHOLE, k] < 0.0 else 0.0
-        if touching:
-            corners.choose_modes(c, body, theta, state, now, -1)
         # On a track: the length of a block of cycles, and the time at which it ends; the furthest position; the time
         # without contact before the block.
         before[:] = math.inf
         block, furthest, airtime = CYCLES * TURN / c.omega, 0.0, 0.0
         due = block if distance < math.inf else math.inf
         length, known = 0.01 * LONGEST * TURN / c.omega, False
-        code = OK
         while True:
-            kind = TOUCH
-            if not touching:
+            flying, kind, corner = not touching, TOUCH, -1
+            if flying:
                 lapse = next_impact(c, body, theta, state, end - t, after, now)
                 if math.isnan(lapse):
                     code = IMPACT_LOST
                     break
                 result[AIRTIME] += max(min(t + lapse - since[i], lapse), 0.0)
-                result[TILT] = max(result[TILT], abs(after[ANGLE]))
-                flying = True
             else:
-                flying = False
-                if not known:
-                    corners.derive(c, body, theta, state, now, stages[0])
-                lapse = min(length, LONGEST * TURN / c.omega, end - t)
-                error = take_step(c, body, theta, state, lapse, stages, after, now)
-                result[STEPS] += 1.0
-                if not error <= 1.0:
-                    # Also for an error that is not finite.
-                    shrink = max(SAFETY * error**-0.2, LEAST) if math.isfinite(error) else LEAST
-                    length, known = lapse * shrink, True
-                    if length * c.omega < SHORTEST * TURN or result[STEPS] > cycles * MAX_STEPS:
-                        code = TOO_STIFF
-                        break
-                    continue
-                # A step that an event or the end cuts short says little of the next one.
-                longer = lapse * min(SAFETY * max(error, 1e-10) ** -0.2, MOST)
-                length = longer if lapse >= length else max(longer, length)
-                share, kind, corner = first_event(c, body, theta, state, lapse, stages, after, now, between)
-                if kind <= PULL:
-                    lapse *= share
-                    take_step(c, body, theta, state, lapse, stages, after, now)
-                else:
-                    corners.derive(c, body, theta + c.omega * lapse, after, now, stages[STAGES - 1])
-                turn = state[SPIN] * after[SPIN]
-                if turn < 0.0:
-                    # The rotation reverses: the spin is nearly linear in a step.
-                    top = state[ANGLE] + 0.5 * lapse * state[SPIN] * state[SPIN] / (state[SPIN] - after[SPIN])
-                    result[TILT] = max(result[TILT], abs(top))
-                result[TILT] = max(result[TILT], abs(after[ANGLE]))
+                given = theta, state, end - t, length, known
+                code, lapse, kind, corner, length, tried = press(c, body, *given, stages, after, between, now)
+                result[STEPS] += tried
+                code = TOO_STIFF if result[STEPS] > cycles * MAX_STEPS else code
+                if code != OK:
+                    break
+            result[TILT] = max(result[TILT], largest_tilt(state, after, lapse))
             # Samples and arrivals in this piece; at the end of the run, all that is left.
             while result[SAMPLED] < times.shape[1]:
-                moment = times[i, int(result[SAMPLED])]
-                if moment > t + lapse and lapse < end - t:
+                place = int(result[SAMPLED])
+                if times[i, place] > t + lapse and lapse < end - t:
                     break
-                if flying:
-                    fly(state, c.gravity, c.downhill, moment - t, between)
-                else:
-                    share = min((moment - t) / lapse, 1.0) if lapse > 0.0 else 1.0
-                    interpolate(state, lapse, stages, after, share, between)
-                copy(samples[i, int(result[SAMPLED])], between)
-                samples[i, int(result[SAMPLED]), Z] -= body.half_height
+                move(c, flying, state, lapse, stages, after, times[i, place] - t, between)
+                copy(samples[i, place], between)
+                samples[i, place, Z] -= body.half_height
                 result[SAMPLED] += 1.0
-            furthest, skipped = max(furthest, after[X]), 0.0
+            furthest = max(furthest, after[X])
             if t + lapse > due:
-                if flying:
-                    fly(state, c.gravity, c.downhill, due - t, between)
-                else:
-                    interpolate(state, lapse, stages, after, (due - t) / lapse, between)
-                advance = between[X] - before[X]
-                if repeats(c, body, before, between):
-                    # Blocks are left out up to one before the end or the arrival.
-                    blocks = (end - due) / block - 1.0
-                    if advance > 0.0:
-                        blocks = min(blocks, (distance - furthest) / advance - 1.0)
-                    skipped = max(math.floor(blocks), 0.0)
+                move(c, flying, state, lapse, stages, after, due - t, between)
+                skipped = blocks_to_skip(c, body, before, between, (end - due) / block, distance - furthest)
+                if skipped > 0.0:
+                    advance = skipped * (between[X] - before[X])
                     result[AIRTIME] += skipped * (result[AIRTIME] - airtime)
                     t += skipped * block
-                    furthest += skipped * advance
-                    state[X] += skipped * advance
-                    after[X] += skipped * advance
-                    between[X] += skipped * advance
+                    furthest += advance
+                    state[X] += advance
+                    after[X] += advance
+                    between[X] += advance
                 copy(before, between)
                 airtime, due = result[AIRTIME], due + (skipped + 1.0) * block
             if after[X] >= distance:
                 result[ARRIVAL] = t + (distance - state[X]) / (after[X] - state[X]) * lapse
             t = end if lapse >= end - t else t + lapse
             theta = (theta + c.omega * lapse) % TURN
-            finite = True
-            for k in range(STATE):
-                state[k] = after[k]
-                finite = finite and math.isfinite(after[k])
-            if not finite:
+            copy(state, after)
+            if not math.isfinite(state.sum()):
                 code = NOT_FINITE
                 break
             # Ctrl-C sets the times to zero.
-            if t >= times[i, -1] or after[X] >= distance:
+            if t >= times[i, -1] or state[X] >= distance:
                 break
-            # What follows the piece.
             if not flying:
-                force = 0.0
-                for k in range(CORNERS):
-                    force += now[corners.FORCE, k]
                 if t >= since[i]:
-                    result[PEAK_FORCE] = max(result[PEAK_FORCE], force)
+                    result[PEAK_FORCE] = max(result[PEAK_FORCE], now[FORCE].sum())
                 keep_sticking(now, state)
                 copy(stages[0], stages[STAGES - 1])
-                known = kind > PULL
+                known = kind == NONE
                 if known:
                     continue
                 result[EVENTS] += 1.0
                 if result[EVENTS] > cycles * MAX_EVENTS:
                     code = TOO_MANY_EVENTS
                     break
-            slips = -1
-            if flying or kind == TOUCH:
-                corners.locate(c, body, theta, state, now)
-                touching, speed = touch(now, margins.gap)
-                if t >= since[i]:
-                    result[IMPACT_SPEED] = max(result[IMPACT_SPEED], speed)
-            elif kind == PULL:
-                now[PULLED, corner] = 1.0 - now[PULLED, corner]
-            elif now[MODE, corner] == corners.STICK:
-                slips = corner
-            else:
-                state[VX] += now[SLIP, corner]  # which is zero but for the margin
+            touching, speed = go_on(c, body, theta, flying, kind, corner, state, now)
+            if t >= since[i]:
+                result[IMPACT_SPEED] = max(result[IMPACT_SPEED], speed)
             known = False
-            if touching:
-                corners.choose_modes(c, body, theta, state, now, slips)
         result[CODE] = code
         samples[i, int(result[SAMPLED]) :] = math.nan
