@@ -14,10 +14,9 @@ from .scaling_region import SAMPLES_PER_BOX, SCALES, SCALES_PER_OCTAVE, Dimensio
 
 # Nested parts of a set of points: all, half, a quarter. A point of h halvings belongs to the first h + 1 parts.
 PARTS = 3
-# Positions of each grid over which box counts are averaged, in boxes: a Fibonacci lattice. Because 5 is odd, doubling
-# only changes the order of the positions: nested grids have the same positions at each scale. With 13 positions, which
-# take twice as long, the estimates differ by less than their errors, and the errors hardly.
-SHIFTS = np.modf(np.arange(5)[:, None] * np.array([1.0, 3.0]) / 5.0)[0]
+# Positions of each grid over which box counts are averaged, in boxes: a Fibonacci lattice. Because 13 is odd, doubling
+# only changes the order of the positions: nested grids have the same positions at each scale.
+SHIFTS = np.modf(np.arange(13)[:, None] * np.array([1.0, 8.0]) / 13.0)[0]
 
 
 class Samples(NamedTuple):

@@ -118,7 +118,7 @@ class Arithmetic(NamedTuple):
     tolerance: float  # of the last terms of the series, in g/ω² and g/ω
 
 
-EXACT = Arithmetic(bits=106, order=28, tolerance=1e-19)
+EXACT = Arithmetic(bits=128, order=32, tolerance=1e-22)
 # A horseshoe needs no narrow enclosures.
 CHAOS = Arithmetic(bits=64, order=24, tolerance=1e-14)
 LONGEST_PERIOD = 16  # cycles; orbits longer than orbits.max_period belong to the cascade of the jumping orbit
