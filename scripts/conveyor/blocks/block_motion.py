@@ -5,8 +5,8 @@ the rotation. Its acceleration relative to the plate is at least -(g cos α + bo
 |r| from the centre and the spin Ω. The parabola with this acceleration reaches the plate before the corner does, so
 that a step to its root is safe (see solver.flight for a point).
 
-What happens in a piece is copied into `follow` as machine code. Called, these functions would get all constants by
-value, and runs would take 1.7 times as long.
+The functions for what happens in a piece are copied into `follow` as machine code. Called, they make runs take 1.7
+times as long.
 """
 
 import math
@@ -225,9 +225,9 @@ def blocks_to_skip(c, body, before, between, most, ahead):
     before, between : states at the beginning and at the end of a block
     most, ahead : blocks up to the end of the run; m, up to the end of the track
     """
-    advance = between[X] - before[X]
     if not repeats(c, body, before, between):
         return 0.0
+    advance = between[X] - before[X]
     # Up to one block before the end or the arrival.
     return max(math.floor(min(most, ahead / advance if advance > 0.0 else math.inf) - 1.0), 0.0)
 
@@ -275,9 +275,11 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
     # `before` is the state one block of cycles ago.
     state, after, between, before = no_refcount((states[0], states[1], states[2], states[3]))
     for i in range(len(parameters)):
-        c, code, result = contact.compute_constants(parameters[i], tolerance, harmonics), OK, results[i]
+        c = contact.compute_constants(parameters[i], tolerance, harmonics)
         body = corners.Body(0.5 * bodies[i, 0], 0.5 * bodies[i, 1], bodies[i, 2])
-        theta, t, end, cycles = c.psi0 % TURN, 0.0, times[i, -1], 1.0 + times[i, -1] * c.omega / TURN
+        end, cycles = times[i, -1], 1.0 + times[i, -1] * c.omega / TURN
+        code, result = OK, results[i]
+        theta, t = c.psi0 % TURN, 0.0
         touching = begin(c, body, parameters[i], tilts[i], state, now)
         result[TILT], result[ARRIVAL] = abs(tilts[i]), math.nan
         # On a track: the length of a block of cycles, and the time at which it ends; the furthest position; the time
