@@ -4,13 +4,14 @@ import os
 from dataclasses import replace
 
 import numpy as np
+import pandas as pd
 import pytest
 import yaml
 from accelerometer import Drive, check, read, table_of
 
 from conveyor.parameters import HARMONIC
 from conveyor_pipeline import make
-from conveyor_pipeline.common.csv_table import TableError, read_text
+from conveyor_pipeline.common.csv_table import TableError, read_text, to_numbers
 from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.files import merge
 from conveyor_pipeline.machine.excitation.faults import MOST_SHARE
@@ -289,3 +290,9 @@ def test_faults_end_the_run_before_any_job(overlay, message, tmp_path):
     with pytest.raises(ConfigError) as error:
         load(tmp_path, overlay)
     assert message in str(error.value)
+
+
+@pytest.mark.parametrize("sign", ["'", "\u00a0", "\u202f"])
+def test_signs_between_thousands_are_read(sign):
+    texts = pd.Series([f"12{sign}345.5", "-0.25"])
+    assert to_numbers(texts, (".", "")).tolist() == [12345.5, -0.25]
