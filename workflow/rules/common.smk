@@ -17,6 +17,9 @@ os.environ[STATE] = code_state()
 # memory with them.
 os.environ.setdefault("MIMALLOC_ALLOW_THP", "0")
 
+# One thread of BLAS, whose sums must not depend on the number of cores, and whose threads wait for work at the cost of a core.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # If the terminal is closed, Snakemake ends as after SIGTERM and removes its lock. Under nohup it goes on.
 if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
     signal.signal(signal.SIGHUP, lambda number, frame: signal.raise_signal(signal.SIGTERM))
