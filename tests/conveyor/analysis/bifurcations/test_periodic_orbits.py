@@ -55,6 +55,14 @@ def test_product_of_multipliers_follows_from_the_time_in_contact(branch):
     assert products == pytest.approx(wanted, abs=1e-9)
 
 
+@pytest.mark.parametrize("parameter", ["acceleration", "damping", "frequency", "exponent"])
+def test_an_orbit_comes_back_to_its_unknowns(jumping, parameter):
+    returns = periodic_orbits.ReturnMap(PARAMETERS, 3, parameter)
+    unknown = returns.unknown(jumping)
+    assert unknown[2] * returns.unit[2] == pytest.approx(getattr(CONVEYOR, parameter), rel=1e-15)
+    assert returns.strobes(unknown) == pytest.approx(np.tile(unknown, (3, 1)), rel=1e-8)
+
+
 def test_multipliers_agree_with_finite_differences(jumping):
     returns = periodic_orbits.ReturnMap(PARAMETERS, 1)
     unknown = returns.scaled(40.0, jumping.state)
