@@ -2,6 +2,7 @@
 import os
 import re
 import signal
+import threading
 
 from conveyor_pipeline.figures.titles import caption_file, package_of, title_of
 from conveyor_pipeline.common.code_state import STATE, code_state
@@ -23,6 +24,22 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # If the terminal is closed, Snakemake ends as after SIGTERM and removes its lock. Under nohup it goes on.
 if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
     signal.signal(signal.SIGHUP, lambda number, frame: signal.raise_signal(signal.SIGTERM))
+
+
+def cancel_timers():
+    """Cancel the timers of Snakemake, for which it would wait at its end: see max-jobs-per-timespan in profiles/default."""
+    for thread in threading.enumerate():
+        if isinstance(thread, threading.Timer):
+            thread.cancel()
+
+
+onsuccess:
+    cancel_timers()
+
+
+onerror:
+    cancel_timers()
+
 
 # "" or "NAME/": a config with a prefix has its own folder of results and figures.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
