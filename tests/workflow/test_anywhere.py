@@ -156,6 +156,7 @@ rule all:
 """
 
 
+@pytest.mark.long  # two builds
 def test_two_modules_with_prefixes(tmp_path):
     (tmp_path / "Snakefile").write_text(TWO_MODULES.format(snakefile=ROOT / "Snakefile"))
     snakemake(tmp_path, *IN_PROCESS_OPTIONS)

@@ -178,6 +178,7 @@ def test_functions_of_others_give_no_notice_and_the_garbage_collector_is_left_as
     assert found.stderr == ""
 
 
+@pytest.mark.long
 def test_functions_that_numba_cannot_keep_are_compiled(run):
     """Without optimisation, numba keeps no machine code that refers to arrays of a module."""
     assert float(run(ROOT_OF_LINE, NUMBA_OPT="0").stdout.split()[0]) == 0.5

@@ -50,6 +50,7 @@ def test_moments_and_evidence_of_a_narrow_valley():
     assert np.exp(found.log_evidence) == pytest.approx(volume / 1e3, rel=0.1)
 
 
+@pytest.mark.long  # twelve searches
 @pytest.mark.usefixtures("exact")
 def test_searches_reach_the_narrow_end_of_a_bent_valley():
     """The first parameter is normal with the standard deviation 0.4; the others follow it in ever wider valleys."""

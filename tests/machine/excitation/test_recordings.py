@@ -168,7 +168,7 @@ def test_what_happens_late_in_a_long_recording_is_refused(change):
         measure.make(text, {**PURE.settings, "measured": "mine.csv"})
 
 
-@pytest.mark.parametrize(("frequency", "rate"), [(50.0, 1613.7), (6.0, 25_600.0)])
+@pytest.mark.parametrize(("frequency", "rate"), [(50.0, 1613.7), pytest.param(6.0, 25_600.0, marks=pytest.mark.long)])
 def test_long_recordings_without_faults_are_accepted(frequency, rate):
     drive = replace(PURE, frequency=frequency, acceleration=20.0, rate=rate, cycles=frequency * 70_000 / rate)
     time, readings = drive.record(3)

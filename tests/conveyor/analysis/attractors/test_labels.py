@@ -239,6 +239,7 @@ def test_a_trajectory_that_begins_in_a_trapping_region_is_followed_for_no_whole_
     assert wanted.cycles.min() > 0
 
 
+@pytest.mark.long
 def test_the_bar_moves_evenly_where_the_last_trajectories_take_longest():
     class Steps(tqdm):
         def update(self, n=1):

@@ -111,6 +111,7 @@ SLOW_CONVEYOR = {
 }
 
 
+@pytest.mark.long
 def test_slow_orbits_have_neighbourhoods_in_which_motions_stay():
     """Next to its period doubling, an orbit attracts with the multiplier 0.999; it is approached from 400 cycles on."""
     row = conveyor_of(42.31691002563875, **SLOW_CONVEYOR)
