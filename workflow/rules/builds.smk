@@ -65,6 +65,7 @@ rule provenance:
             *(table(name) for name in BUILT_TABLES if kind_of(name) in TIMED),
             *TIMED_PAGES,
             *(figure_file(name, ending) for name in TIMED_FIGURES for ending in ("pdf", "png")),
+            *caption_files(TIMED_FIGURES),
         ],
         config=hashlib.sha256(json.dumps(config).encode()).hexdigest(),
         benchmarks=result("benchmarks"),
