@@ -1,5 +1,7 @@
 """The log of a rule: the stderr of its script, and the traceback if it fails."""
 
+import atexit
+import gc
 import importlib.util
 import os
 import sys
@@ -11,6 +13,8 @@ from typing import TextIO
 from conveyor_pipeline.common.code_state import SCRIPTS, STATE, code_state
 
 COMPILED = "Time to compile: "  # a line in the log of a job that compiled functions
+# Otherwise Python would search all objects for cycles at its end, which takes 0.2 s per job.
+atexit.register(gc.freeze)
 
 
 class JobError(Exception):
