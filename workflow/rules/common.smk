@@ -2,7 +2,6 @@
 import os
 import re
 import signal
-import threading
 
 from conveyor_pipeline.figures.titles import caption_file, package_of, title_of
 from conveyor_pipeline.common.code_state import STATE, code_state
@@ -18,28 +17,12 @@ os.environ[STATE] = code_state()
 # memory with them.
 os.environ.setdefault("MIMALLOC_ALLOW_THP", "0")
 
-# One thread of BLAS, whose sums must not depend on the number of cores, and whose threads wait for work at the cost of a core.
+# One thread of BLAS: its sums must not depend on the number of cores, and to start more takes 0.1 s of processor time per job.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # If the terminal is closed, Snakemake ends as after SIGTERM and removes its lock. Under nohup it goes on.
 if signal.getsignal(signal.SIGHUP) is signal.SIG_DFL:
     signal.signal(signal.SIGHUP, lambda number, frame: signal.raise_signal(signal.SIGTERM))
-
-
-def cancel_timers():
-    """Cancel the timers of Snakemake, for which it would wait at its end: see max-jobs-per-timespan in profiles/default."""
-    for thread in threading.enumerate():
-        if isinstance(thread, threading.Timer):
-            thread.cancel()
-
-
-onsuccess:
-    cancel_timers()
-
-
-onerror:
-    cancel_timers()
-
 
 # "" or "NAME/": a config with a prefix has its own folder of results and figures.
 PREFIX = config["prefix"] and f"{config['prefix']}/"
