@@ -24,7 +24,7 @@ TABLES = {
 
 # Samples of a settled motion: enough to know the dimension of chaos to ± 0.1 by boxes; fewer for the correlation sum,
 # because the number of pairs grows with their square.
-SAMPLES = {"box": 300_000, "correlation": 20_000}
+SAMPLES = {"box": 100_000, "correlation": 20_000}
 
 
 def portrait(parameters: np.ndarray, settings: dict) -> np.ndarray:
