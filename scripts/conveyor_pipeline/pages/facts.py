@@ -49,6 +49,13 @@ def names_by_verdict(claims: pd.DataFrame) -> dict[str, list[str]]:
     return {name: claims.id[claims.verdict == verdict].tolist() for name, verdict in zip(names, VERDICTS, strict=True)}
 
 
+def late_limits(claims: pd.DataFrame) -> list[str]:
+    """The names of the claims with a limit that was set when the numbers were known."""
+    return claims.id[
+        claims.because.map(lambda reasons: any("when the numbers were known" in one for one in reasons))
+    ].tolist()
+
+
 def summarize_proofs(orbits: pd.DataFrame, bifurcations: pd.DataFrame, chaos: pd.DataFrame) -> dict[str, Any]:
     """Numbers of proved orbits and bifurcations, and where two stable motions and chaos are proved."""
     counts = stable_motions(orbits)
@@ -66,7 +73,8 @@ def summarize_speed(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
     """Speed and accuracy of the solver at its default tolerance, in all scenes of the tables of precision."""
     default = pd.DataFrame([at_default(scene, tables[scene], tables[f"{scene}_times"]) for scene in SCENES])
     return {
-        "speeds": default.speed,
+        "speeds": default.speed_without,
+        "reuse_speeds": default.speed,
         "tolerance": default.tolerance.iloc[0],
         "worst_error": default.error.max(),
     }
@@ -109,7 +117,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         moved, transit, lengths, drives and bodies
     """
     claims = tables["claims"].set_index("id")
-    first_error, second_error, right_readings = claims.paper_method["C22"]
+    first_error, second_error, equal_signs = claims.paper_method["C22"]
     onset = accumulation(spectrum=tables["spectrum"], cascade=tables["cascade"])
     return {
         "euler_positive": claims.paper_method["C19"][0],
@@ -118,7 +126,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         "scatter": claims.converged["C03"][0],
         "first_error": first_error,
         "second_error": second_error,
-        "right_readings": right_readings,
+        "equal_signs": equal_signs,
         "moved": moved_impacts.numbers(moved=tables["moved"]),
         "paper_two_states": claims.paper["C02"],
         "heights_aside": fig10.numbers(converged=tables["edge"], fit=tables["fit"], euler=tables["edge_euler"])[
@@ -129,6 +137,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         "valley": flat_part(tables["fit"]).B,
         **onset,
         **names_by_verdict(tables["claims"]),
+        "late_limits": late_limits(tables["claims"]),
         **summarize_proofs(tables["certificates"], tables["certified_bifurcations"], tables["certified_chaos"]),
         **summarize_speed(tables),
         **summarize_transit(tables["transit"], tables["lengths"], onset["accumulation"]),

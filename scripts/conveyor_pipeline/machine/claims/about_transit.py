@@ -7,7 +7,7 @@ from conveyor.linear_algebra import fit_line
 from conveyor_pipeline.machine.operating.regimes import BESIDE, CHAOS, SEVERAL
 from conveyor_pipeline.paper.claims.finding import NONE, Finding
 
-HIGHEST = 90.0  # m/s², the paper's largest amplitude; amplitudes above it do not decide about its statement
+HIGHEST = 90.0  # m/s², the end of the axes of the paper's figures here; amplitudes above it do not decide
 
 
 def exponents(lengths: pd.DataFrame, regime: str) -> dict[float, float]:
@@ -24,7 +24,11 @@ def describe_regimes(regimes: pd.DataFrame) -> str:
     """Where all motions are chaotic, and where chaos exists beside other motions, in words."""
     beside = regimes[regimes.regime == BESIDE]
     last = regimes.iloc[-1]
-    texts = [f"From {last.begin:g} m/s² on, all motions are chaotic"] if last.regime == CHAOS else []
+    texts = (
+        [f"At all computed amplitudes from {last.begin:g} m/s² on, all motions are chaotic"]
+        if last.regime == CHAOS
+        else []
+    )
     if len(beside):
         runs = format_intervals(beside.begin, beside.end)
         texts.append(f"At {runs} m/s², chaos exists beside other motions, and the initial condition decides")
@@ -46,7 +50,11 @@ def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame, regimes: pd.Data
     within = {acceleration: exponent for acceleration, exponent in chaotic.items() if acceleration <= HIGHEST}
     beyond = {acceleration: exponent for acceleration, exponent in chaotic.items() if acceleration > HIGHEST}
     farthest = max(within.values(), key=lambda exponent: abs(exponent + 0.5), default=NONE)
-    groups = {"chaos": within, "coexisting motions": coexisting, "chaos beyond the paper's amplitudes": beyond}
+    groups = {
+        "chaos": within,
+        "coexisting motions": coexisting,
+        "chaos at larger amplitudes, which do not decide": beyond,
+    }
     texts = [
         f"{name} at {', '.join(f'{acceleration:g} m/s² ({exponent:.2f})' for acceleration, exponent in powers.items())}"
         for name, powers in groups.items()
@@ -55,8 +63,7 @@ def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame, regimes: pd.Data
     note = f"Exponents of the spread: {'; '.join(texts)}" if texts else "No exponent of the spread is known"
     if len(known):
         note += (
-            f". The velocities are compared at {known.acceleration.min():g} to {known.acceleration.max():g} m/s², "
-            "where all motions are chaotic"
+            f". The velocities are compared at {', '.join(f'{amplitude:g}' for amplitude in known.acceleration)} m/s²"
         )
     note = ". ".join(filter(None, [note, describe_regimes(regimes)]))
     numbers = {

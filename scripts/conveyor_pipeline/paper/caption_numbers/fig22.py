@@ -17,7 +17,7 @@ def describe_exceptions(table: pd.DataFrame) -> str:
 
 def numbers(
     *, converged: pd.DataFrame, spectrum: pd.DataFrame, states: pd.DataFrame, euler: pd.DataFrame
-) -> dict[str, float]:
+) -> dict[str, float | str | None]:
     settled = with_settled_motion(converged, states)
     positive = settled[settled["lambda"] > 0.0]
     counts = {"positive": len(positive), "periodic": int((positive.period > 0).sum())}
@@ -29,11 +29,15 @@ def numbers(
         direction="nearest",
     )
     joined = joined[joined.chaotic]
+    begin, end = positive_onset(euler), positive_onset(converged)
+    between = states[states.acceleration.between(begin, end, inclusive="left")]
+    rides = len(between) > 0 and (between.state == "first").all()
     return counts | {
         "lowest_chaos": settled[settled.chaotic].acceleration.min(),
-        "euler_positive": positive_onset(euler),
+        "longest_flight": between.longest_flight.max() if rides else None,
+        "euler_positive": begin,
         "euler_exceptions": describe_exceptions(euler),
-        "converged_positive": positive_onset(converged),
+        "converged_positive": end,
         "converged_exceptions": describe_exceptions(converged),
         "time_shift": converged.attrs["epsilon"] / (2.0 * math.pi * converged.attrs["model"]["frequency"]),
         "plateau": joined["lambda"].median(),

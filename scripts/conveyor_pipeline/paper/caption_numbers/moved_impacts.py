@@ -13,6 +13,12 @@ def shortest_sufficient_shift(ends: pd.DataFrame) -> float:
     return shifts[shifts > shifts[ends.difference >= ends.epsilon].max()].min()
 
 
+def longest_useless_shift(ends: pd.DataFrame) -> float:
+    """The largest time shift, in time steps, up to which all runs by Euler end with a positive estimate."""
+    shifts = ends.time_shift / ends.step
+    return shifts[shifts < shifts[ends.difference < ends.epsilon].min()].max()
+
+
 def numbers(*, moved: pd.DataFrame) -> dict[str, Any]:
     ends = moved[moved.time == moved.time.max()]
     smallest = ends[ends.epsilon == ends.epsilon.min()]
@@ -24,6 +30,7 @@ def numbers(*, moved: pd.DataFrame) -> dict[str, Any]:
         "time_shift": smallest.time_shift.min(),
         "duration": f"{ends.time.max():g}",
         "mean_shift": converged["mean_shift"].mean(),
+        "useless": longest_useless_shift(ends[ends.method == "euler"]),
         "helps": shortest_sufficient_shift(ends[ends.method == "euler"]),
         "moved": by_euler.moved.sum(),
         "impacts": by_euler.impacts.sum(),

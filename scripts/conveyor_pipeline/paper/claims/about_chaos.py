@@ -157,7 +157,7 @@ def describe_moved_impacts(moved: pd.DataFrame) -> str:
         f"s, and the impacts of the converged solution move by {converged.mean_shift.mean():.3f} of it. By the paper's "
         f"method, {by_euler.moved.sum()} of {by_euler.impacts.sum()} impacts move. On a periodic motion such a shift "
         "neither grows nor decays, so that the exponent is zero; only whether the estimate is positive is judged, "
-        "which the paper reads as chaos"
+        "which the paper reads as chaos. At a finite time, this depends on the units, m/s and rad"
     )
 
 
@@ -202,30 +202,39 @@ def predicted_onset(
     states: pd.DataFrame,
     states_of_exponent: pd.DataFrame,
 ) -> Finding:
-    """Distance (m/s²) between the onsets by dimension and by the exponent of Fig. 22, and fluctuation of the dimension.
+    """Distances (m/s²) of the onsets by dimension and by the exponent of Fig. 22 from chaos, and the largest step.
 
-    The fluctuation is the largest step of the dimension between neighbouring amplitudes with an estimate.
+    Each onset is compared with the onset of chaos for its own initial condition. The step is that of the dimension
+    between neighbouring amplitudes with an estimate.
     """
+    states = states[states.z0 == states.z0.min()].sort_values("acceleration", kind="stable")
+    chaos, chaos_on_plate = (
+        onset(table.acceleration, table.state == "chaos") for table in (states, states_of_exponent)
+    )
     quantities = []
     for table, exponent in ((euler, euler_exponent), (converged, converged_exponent)):
-        by_dimension, by_exponent = dimension_onset(table), positive_onset(exponent)
         # Both neighbours on the axis need an estimate: NaN for a missing one, which max() leaves out.
         steps = table.sort_values("acceleration", kind="stable").dimension.diff().abs()
-        quantities.append({"distance": abs(by_dimension - by_exponent), "largest_step": float(steps.max())})
+        quantities.append(
+            {
+                "dimension": abs(dimension_onset(table) - chaos),
+                "exponent": abs(positive_onset(exponent) - chaos_on_plate),
+                "largest_step": float(steps.max()),
+            }
+        )
     unknown = converged[converged.dimension.isna()].status.value_counts()
-    states = states[states.z0 == states.z0.min()].sort_values("acceleration", kind="stable")
-    chaos = [onset(table.acceleration, table.state == "chaos") for table in (states, states_of_exponent)]
     note = (
-        "An onset is the amplitude with the fewest exceptions, which are chaos below it and none above it. By the "
-        f"converged dimension, chaos begins at {format_amplitude(dimension_onset(converged))}, and by the converged "
-        f"estimate of Fig. 22 at {format_amplitude(positive_onset(converged_exponent))}. By the paper's method, it "
-        f"begins at {format_amplitude(dimension_onset(euler))} and "
-        f"{format_amplitude(positive_onset(euler_exponent))}, where the second state begins, because its box counting "
-        f"gives {dimension_range(euler, states, 'second')} in the second state and "
+        "An onset is the amplitude with the fewest exceptions, which are chaos below it and none above it. The initial "
+        "conditions are open. Fig. 24 has the one of Fig. 3 here: for the one of Fig. 22, on the plate, the dimension "
+        "by the paper's method would not rise where it does in the paper. Chaos begins at "
+        f"{format_amplitude(chaos)} for the one of Fig. 24, and at {format_amplitude(chaos_on_plate)} for the one of "
+        "Fig. 22. The converged dimension shows "
+        f"{format_amplitude(dimension_onset(converged))}, and the converged estimate of Fig. 22 "
+        f"{format_amplitude(positive_onset(converged_exponent))}. By the paper's method, they show "
+        f"{format_amplitude(dimension_onset(euler))} and {format_amplitude(positive_onset(euler_exponent))}: its box "
+        f"counting gives {dimension_range(euler, states, 'second')} in the second state and "
         f"{dimension_range(euler, states, 'chaos')} in chaos. Converged phase portraits have no known dimension at "
-        f"{unknown.sum()} of {len(converged)} amplitudes{describe_counts(unknown)}. The figures "
-        f"begin with different initial conditions: chaos begins at {format_amplitude(chaos[0])} for the one of Fig. "
-        f"24, and at {format_amplitude(chaos[1])} for the one of Fig. 22, on the plate"
+        f"{unknown.sum()} of {len(converged)} amplitudes{describe_counts(unknown)}"
     )
     return Finding(*quantities, note)
 

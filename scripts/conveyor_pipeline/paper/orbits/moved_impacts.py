@@ -27,7 +27,8 @@ TABLES = {
         ),
     ),
 }
-# Jumping motions below the onset of chaos, of period 1 and 2, which start on the plate as in Fig. 22.
+# Motions of period 1 in the first state, with short flights, below the onset of chaos. They start on the plate as in
+# Fig. 22.
 AMPLITUDES = (50.5, 53.0, 55.0, 57.0)  # m/s²
 EPSILONS = (1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3)  # rad; the first one is the perturbation of Fig. 22
 STEPS = (5e-7, 2.5e-7, 5e-6)  # s; the first one is the paper's

@@ -17,6 +17,7 @@ class Factor(NamedTuple):
     error: float
     milliseconds: float  # of the other run
     own_milliseconds: float
+    evaluations: float  # of the other run over those of the solver
 
     @property
     def ratio(self) -> float:
@@ -67,17 +68,29 @@ def at_default(scene: str, work: pd.DataFrame, times: pd.DataFrame) -> dict:
     }
 
 
+def compare(runs: pd.DataFrame, other: pd.Series | None, error: float) -> Factor | None:
+    """The fastest run of the solver whose error is at most `error`, compared with another run; None without one."""
+    solver = fastest(runs[runs.treatment == OWN], error)
+    if solver is None or other is None:
+        return None
+    evaluations = other.evaluations / solver.evaluations
+    return Factor(other.method, error, other.milliseconds, solver.milliseconds, evaluations)
+
+
 def factors(runs: pd.DataFrame, equal_error: float = EQUAL_ERROR) -> list[Factor]:
     """The solver compared with the paper's run at its error, and with the fastest other method at `equal_error`.
 
     A comparison is left out if no run reaches its error.
     """
-    own, others = runs[runs.treatment == OWN], runs[runs.method != "event"]
     paper = paper_run(runs)
-    pairs = [(paper.trajectory_error, paper), (equal_error, fastest(others, equal_error))]
-    compared = []
-    for error, other in pairs:
-        solver = fastest(own, error)
-        if solver is not None and other is not None:
-            compared.append(Factor(other.method, error, other.milliseconds, solver.milliseconds))
-    return compared
+    compared = [
+        compare(runs, paper, paper.trajectory_error),
+        compare(runs, fastest(runs[runs.method != "event"], equal_error), equal_error),
+    ]
+    return [factor for factor in compared if factor]
+
+
+def fastest_fixed_steps(runs: pd.DataFrame) -> Factor:
+    """The solver compared with the fastest run with fixed steps whose error is at most that of the paper's run."""
+    error = paper_run(runs).trajectory_error
+    return compare(runs, fastest(runs[runs.treatment == "fixed step"], error), error)

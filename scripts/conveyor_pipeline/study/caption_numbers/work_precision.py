@@ -18,11 +18,12 @@ def numbers(
     works, times = (jumping, riding, bouncing), (jumping_times, riding_times, bouncing_times)
     comparisons = []
     for scene, work, seconds in zip(NAMES.values(), works, times, strict=True):
-        paper, *others = speed.factors(speed.successful_runs(work, seconds))
-        rival = others[0] if others else None
-        comparisons.append((scene, paper, rival, rival and method_name(rival.method)))
+        runs = speed.successful_runs(work, seconds)
+        paper, *others = speed.factors(runs)
+        comparisons.append((scene, paper, speed.fastest_fixed_steps(runs), others[0] if others else None))
     return {
         "comparisons": comparisons,
+        "method_name": method_name,
         "equal_error": speed.EQUAL_ERROR,
         "difference": max(speed.independent_run(work).state_error for work in works),
     }
