@@ -10,7 +10,7 @@ from prose import typed
 
 from conveyor_pipeline.figures import captions
 from conveyor_pipeline.figures.titles import title_of
-from conveyor_pipeline.paper.caption_numbers import bifurcation
+from conveyor_pipeline.paper.caption_numbers import bifurcation, moved_impacts
 from conveyor_pipeline.paper.sensitivity.limits import UNEVEN
 
 CONFIG = read_config()
@@ -57,16 +57,25 @@ def test_plateau_and_exponent_of_fig_22():
         {"acceleration": acceleration, "branch": "up", "lambda_1": np.where(chaotic, 36.0, -20.0), "stderr": 1.0}
     )
     states = pd.DataFrame({"acceleration": acceleration, "state": np.where(acceleration >= 61.0, "chaos", "first")})
-    states = states.assign(period=np.where(acceleration >= 61.0, 0, 2))
-    text = caption("fig22", converged=estimate, euler=estimate, spectrum=spectrum, states=states)
+    states = states.assign(period=np.where(acceleration >= 61.0, 0, 2), longest_flight=acceleration / 200.0)
+    euler = estimate.assign(**{"lambda": np.where(acceleration >= 50.0, 1.0, -9.0)})
+    text = caption("fig22", converged=estimate, euler=euler, spectrum=spectrum, states=states)
     assert "phases differ by 1e-8 rad, by the paper's method" in text
-    assert "is positive from 59 m/s² on, with exceptions at 1 of 32 amplitudes. The part jumps there" in text
-    assert "in time by 3e-11 s only. Impacts at time steps of 5e-7 s" in text
+    assert "is positive from 50 m/s² on. Up to 59 m/s², the part settles to the first state, with flights of" in text
+    assert "flights of at most 0.29 cycles. The perturbation shifts" in text
+    assert "in time by 3e-11 s only. At time steps of 5e-7 s" in text
     assert "is positive only from 59 m/s² on, with exceptions at 1 of 32 amplitudes. On a periodic motion" in text
     assert "stays chaotic is 61" in text
     assert "at 2 of the 31 amplitudes with a positive estimate" in text
     assert "The plateau of 17 1/s" in text
     assert "motion there is 36 1/s." in text
+
+
+def test_time_shifts_that_never_and_that_always_help():
+    ends = pd.DataFrame({"time_shift": [1.0, 2.0, 3.0, 4.0, 5.0], "difference": [2.0, 2.0, 0.5, 2.0, 0.5]})
+    ends = ends.assign(step=10.0, epsilon=1.0)
+    assert moved_impacts.longest_useless_shift(ends) == 0.2
+    assert moved_impacts.shortest_sufficient_shift(ends) == 0.5
 
 
 def test_chaos_before_the_accumulation_is_mentioned(monkeypatch):

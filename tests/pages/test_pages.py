@@ -127,6 +127,11 @@ def test_verdicts_are_counted():
     assert render("{{ not_reproduced | length }} ({{ not_reproduced | listed }})", found) == "2 (C02 and C03)"
 
 
+def test_claims_with_limits_that_were_set_late_are_named():
+    reasons = [["half a unit", "as above"], ["a line hides it; set when the numbers were known", "as above"]]
+    assert facts.late_limits(pd.DataFrame({"id": ["C01", "C02"], "because": reasons})) == ["C02"]
+
+
 def test_two_stable_motions_coexist_where_two_orbits_are_proved():
     """At 40 m/s², two orbits are stable; at 50 m/s², only one of two; at 60 m/s², two enclosures may hold one orbit."""
     orbits = pd.DataFrame(

@@ -17,10 +17,12 @@ def test_where_chaos_depends_on_the_initial_condition():
     )
     expected = "At 53 to 53.5, 73 m/s², chaos exists beside other motions, and the initial condition decides"
     assert about_transit.describe_regimes(regimes) == expected
-    assert about_transit.describe_regimes(regimes[:3]).startswith("From 60 m/s² on, all motions are chaotic. At 53")
+    assert about_transit.describe_regimes(regimes[:3]).startswith(
+        "At all computed amplitudes from 60 m/s² on, all motions are chaotic. At 53"
+    )
 
 
-def test_amplitudes_beyond_those_of_the_paper_do_not_decide():
+def test_amplitudes_beyond_the_axes_of_the_paper_s_figures_do_not_decide():
     lengths = pd.DataFrame(
         {
             "acceleration": np.repeat([40.0, 80.0, 120.0], 3),
@@ -37,4 +39,5 @@ def test_amplitudes_beyond_those_of_the_paper_do_not_decide():
     assert numbers["sets"] == 0.0
     assert numbers["exponent"] == pytest.approx(-0.5)
     assert numbers["coexisting"] == pytest.approx(0.0)
-    assert "chaos beyond the paper's amplitudes at 120 m/s² (-0.20)" in note
+    assert "chaos at larger amplitudes, which do not decide, at 120 m/s² (-0.20)" in note
+    assert "velocities are compared at 80 m/s²." in note

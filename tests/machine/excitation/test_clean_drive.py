@@ -64,4 +64,5 @@ def test_the_statement_holds_within_its_limits(riding, chaos, holds):
     assert found["riding"] == pytest.approx(riding * 0.05)
     assert found["riding_medians"][1] <= found["most"] + 1e-12
     assert found["amplitudes"] == [80.0]
+    assert found["stderr"] == pytest.approx({"riding": 0.01, "chaos": 0.01})
     assert found["holds"] is holds

@@ -156,7 +156,10 @@ def test_interval_on_a_coarser_axis():
     heights = pd.DataFrame({"acceleration": [29.0, 32.0, 35.0]})
     finding = about_states.interval(**both(table), heights=heights)
     assert numbers(finding.converged) == (28.0, 48.0, 29.0, 47.0)
-    assert "In steps of 3 m/s², which are assumed for Fig. 9, the part from rest changes its state at 50 m/s²" in finding.note
+    assert (
+        "In steps of 3 m/s², which are assumed for Fig. 9, the part from rest changes its state at 50 m/s²"
+        in finding.note
+    )
 
 
 def test_influences_on_the_critical_amplitude():
@@ -364,9 +367,9 @@ def test_early_chaos_of_some_heights_is_noted():
         "heights from 0 to 0.1 mm. For a part that starts on the plate, and so lower, the onset is 59 m/s²"
         in finding.note
     )
-    assert finding.note.endswith("regular motion remains nowhere")
+    assert finding.note.endswith("regular motion remains nowhere, on an axis in steps of 1.000 m/s²")
     windows = sweep(lambda a, z: "chaos" if a >= 63.0 and a not in (71.0, 72.0) else "second")
-    assert onset_of(windows).note.endswith("in windows only: 71.00 to 72.00 m/s²")
+    assert onset_of(windows).note.endswith("in windows only: 71.00 to 72.00 m/s², on an axis in steps of 1.000 m/s²")
 
 
 def test_impact_line():

@@ -12,7 +12,7 @@ SHIFT_OF_A_STEP = 5e-7 * 2.0 * math.pi * 50.0  # rad, phase of the plate in one 
 
 
 def compare(epsilon: float, **method) -> list[dict]:
-    """The rows of a jumping motion and of its run with a phase that is larger by epsilon (rad)."""
+    """The rows of a motion with short flights and of its run with a phase that is larger by epsilon (rad)."""
     runs = [simulate(Conveyor(acceleration=55.0, psi0=psi0), Start("conveyor"), **method) for psi0 in (0.0, epsilon)]
     return moved_impacts.compare(*runs, time_shift=epsilon / (2.0 * math.pi * 50.0))
 

@@ -53,7 +53,7 @@ def even_feeding(*, drift: pd.DataFrame, lengths: pd.DataFrame, regimes: pd.Data
     groups = {
         "chaos": within,
         "coexisting motions": coexisting,
-        "chaos at larger amplitudes, which do not decide": beyond,
+        "chaos at larger amplitudes, which do not decide,": beyond,
     }
     texts = [
         f"{name} at {', '.join(f'{acceleration:g} m/s² ({exponent:.2f})' for acceleration, exponent in powers.items())}"
