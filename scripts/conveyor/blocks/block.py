@@ -62,7 +62,7 @@ class BlockRun:
     status : "ok", or why the run ended early; all numbers but largest_tilt are then NaN
     x_end : position of the centre at the end, m
     largest_tilt : largest size of the angle, rad; above π/2 the block has rolled over
-    airtime : share of the duration without contact
+    airtime : share of the last quarter without contact
     impact_speed : largest speed of approach of a corner at an impact over the last quarter, m/s; 0 if there is none
     peak_force : largest sum of the contact forces at the ends of steps over the last quarter, N
     """
@@ -132,7 +132,8 @@ def simulate_block(
     conveyor : a Conveyor, or a row of a table, whose initial condition is the default of `start`; the contact of each
         corner has half of its stiffness and of its damping, so that a block that lands flat has the contact of a point
     block : length, height, and moment of inertia
-    start : z is the height of the centre above its height at rest on the plate in its middle position
+    start : z is the height of the centre above its height at rest on the plate in its middle position. A tilted block
+        that starts low has a corner in the plate, which pushes it out.
     tilt : initial angle, rad, -π to π; positive where the front is raised
     duration : s, above 0 and up to 1e6
     tolerance : relative error per step of the contact, 1e-14 to 1e-2
@@ -167,7 +168,7 @@ def simulate_block(
         x_last=float(last[X]),
         x_end=float(end[X]),
         largest_tilt=largest_tilt,
-        airtime=known * airtime / duration,
+        airtime=known * airtime / (duration - before),
         impact_speed=known * impact_speed,
         peak_force=known * conveyor.mass * peak_force,
     )

@@ -25,6 +25,7 @@ from .corners import (
     FREE,
     GAP,
     MODE,
+    OZ,
     PULLED,
     RATE,
     SLIP,
@@ -87,6 +88,8 @@ def next_impact(c, body, theta, state, limit, after, now):
             advance = math.inf
             for i in range(CORNERS):
                 gap, rate = now[GAP, i], now[RATE, i]
+                if gap <= 0.0 and now[OZ, i] >= 0.0:
+                    continue
                 if gap <= 0.0 and rate < 0.0:
                     return tau
                 if gap < -BELOW * margin:
@@ -101,11 +104,13 @@ def next_impact(c, body, theta, state, limit, after, now):
 def touch(now, margin):
     """Close the contacts of all corners that are at the plate and approach it, open those that leave it.
 
+    Corners above the centre stay open: those of a thin block may lie below the plate's surface.
+
     Returns whether a corner is in contact, and the largest speed of approach of a new contact (m/s).
     """
     touching, speed = False, 0.0
     for i in range(CORNERS):
-        if now[MODE, i] == FREE and now[GAP, i] <= margin and now[RATE, i] < 0.0:
+        if now[MODE, i] == FREE and now[GAP, i] <= margin and now[RATE, i] < 0.0 and now[OZ, i] < 0.0:
             now[MODE, i], now[PULLED, i] = FORWARD, 0.0
             speed = max(speed, -now[RATE, i])
         elif now[MODE, i] != FREE and now[GAP, i] >= (-margin if now[RATE, i] > 0.0 else margin):
@@ -150,7 +155,7 @@ def begin(c, body, parameters, tilt, state, now):
     corners.locate(c, body, theta, state, now)
     touching = False
     for k in range(CORNERS):
-        if now[GAP, k] <= 0.0:
+        if now[GAP, k] <= 0.0 and now[OZ, k] < 0.0:
             now[MODE, k], touching = FORWARD, True
     corners.push(c, now)
     for k in range(CORNERS):
@@ -316,7 +321,9 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
             furthest = max(furthest, after[X])
             if t + lapse > due:
                 move(c, flying, state, lapse, stages, after, due - t, between)
-                skipped = blocks_to_skip(c, body, before, between, (end - due) / block, distance - furthest)
+                # Airtime repeats itself only where it counts during the whole block.
+                most = (end - due) / block if due - block >= since[i] else 0.0
+                skipped = blocks_to_skip(c, body, before, between, most, distance - furthest)
                 if skipped > 0.0:
                     advance = skipped * (between[X] - before[X])
                     result[AIRTIME] += skipped * (result[AIRTIME] - airtime)
@@ -353,6 +360,8 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
             touching, speed = go_on(c, body, theta, flying, kind, corner, state, now)
             if t >= since[i]:
                 result[IMPACT_SPEED] = max(result[IMPACT_SPEED], speed)
+                # A damper pushes most as a corner touches the plate.
+                result[PEAK_FORCE] = max(result[PEAK_FORCE], now[FORCE].sum()) if touching else result[PEAK_FORCE]
             known = False
         result[CODE] = code
         samples[i, int(result[SAMPLED]) :] = math.nan

@@ -33,8 +33,9 @@ ROWS = 12
 FREE, STICK, FORWARD, BACKWARD = 0.0, 1.0, 2.0, 3.0
 MOST_STICKING = 2  # the equations of more corners depend on each other
 # Share of the friction equations' diagonal that is added to it. Two corners at equal heights have dependent equations;
-# with this they share the friction in equal parts. A sticking corner then creeps with this share of its acceleration.
-REGULAR = 1e-9
+# with this they share the friction as the contact force, so that both reach the limit of static friction together. It
+# is large enough that neither the rounding of their heights nor a slow rotation decides.
+REGULAR = 1e-4
 # The smallest size that counts as a step over a limit: of a gap (m), a slip velocity (m/s) and a force per mass (m/s²).
 Margins = namedtuple("Margins", "gap slip force")
 # Half of the length and of the height (m), and the moment of inertia per mass (m²).
@@ -105,11 +106,16 @@ def rub(c, body, pull, state, now):
             at_second = pull + spin2 * now[OX, second] - slide + b * (moment - lever) / body.inertia
             both = 1.0 + a * b / body.inertia
             of_first, of_second = 1.0 + a * a / body.inertia, 1.0 + b * b / body.inertia
-            # The determinant without cancellation.
+            share = 0.5
+            if min(now[FORCE, first], now[FORCE, second]) > 0.0:
+                share = now[FORCE, first] / (now[FORCE, first] + now[FORCE, second])
             extra = REGULAR * (of_first + of_second)
-            determinant = (a - b) * (a - b) / body.inertia + extra * (of_first + of_second)
-            now[RUB, first] = (at_first * (of_second + extra) - at_second * both) / determinant
-            now[RUB, second] = (at_second * (of_first + extra) - at_first * both) / determinant
+            on_first, on_second = 0.5 * extra / share, 0.5 * extra / (1.0 - share)
+            # The determinant without cancellation, and without a product of both: at equal heights, the sum of the
+            # frictions is exact.
+            determinant = (a - b) * (a - b) / body.inertia + on_first * of_second + on_second * of_first
+            now[RUB, first] = (at_first * (of_second + on_second) - at_second * both) / determinant
+            now[RUB, second] = (at_second * (of_first + on_first) - at_first * both) / determinant
     return moment
 
 

@@ -320,6 +320,49 @@ def test_transits_skip_the_cycles_of_a_settled_motion():
     np.testing.assert_allclose(arrived.velocity, late.velocity, rtol=0.05)
 
 
+def test_the_time_in_the_air_counts_from_any_moment_of_a_settled_motion():
+    """Skipped cycles count as followed ones; of a block that does not turn, it is that of a point."""
+    conveyor, locked = Conveyor(acceleration=40.0), Block(5e-3, 1e-3, LOCKED)
+    point = simulate(conveyor, Start(z=3e-4), duration=20.0)
+    parameters = parameter_table(conveyor, z0=[3e-4] * 4)
+    begin = np.array([1.0, 5.0, 10.0, 19.0])
+    late = block_transits(parameters, locked, 0.0, length=1e3, longest=20.0, begin=begin)
+    assert late.airtime == pytest.approx(1.0 - point.contact_fraction, abs=5e-3)
+    run = simulate_block(conveyor, locked, Start(z=3e-4), duration=2.0)
+    assert run.airtime == pytest.approx(late.airtime[0], abs=5e-3)
+
+
+@pytest.mark.parametrize(("slope", "stays"), [(0.3, True), (0.55, True), (0.65, False)])
+@pytest.mark.parametrize("height", [1e-4, 1e-3, 5e-3])
+def test_static_friction_holds_a_block_as_a_point(height, slope, stays):
+    """On an inclined plate at rest, in equilibrium; both lower corners reach the limit together."""
+    angle, length = math.atan(slope), 5e-3
+    conveyor = Conveyor(acceleration=0.0, inclination=angle, friction=0.2, static_friction=0.6)
+    weight = conveyor.gravity * math.cos(angle)
+    loads = 0.5 * weight * (1.0 + height / length * slope * np.array([1.0, -1.0]))  # per mass, of the lower end first
+    depths = (conveyor.mass * loads / (0.5 * conveyor.stiffness)) ** (1.0 / conveyor.exponent)
+    tilt = math.asin((depths[0] - depths[1]) / length)
+    start = Start(z=-depths.mean() + 0.5 * height * (math.cos(tilt) - 1.0))
+    run = simulate_block(conveyor, Block(length, height), start, tilt=tilt, duration=0.3)
+    assert run.status == "ok"
+    assert (abs(run.x_end) < 1e-7) == stays
+
+
+@pytest.mark.parametrize(("exponent", "stiffness", "damping"), [(1.0, 2e4, 7.5), (1.5, 5e5, 2.0)])
+def test_a_strong_damper_pushes_most_at_the_first_moment_of_an_impact(exponent, stiffness, damping):
+    conveyor = Conveyor(acceleration=60.0, exponent=exponent, stiffness=stiffness, damping=damping)
+    point = simulate(conveyor, Start(z=4e-4), duration=0.06)
+    run = simulate_block(conveyor, Block(5e-3, 1e-3, LOCKED), Start(z=4e-4), duration=0.06)
+    assert run.peak_force == pytest.approx(point.peak_force, rel=3e-3)
+
+
+def test_the_upper_corners_of_a_thin_block_do_not_touch():
+    conveyor = Conveyor(acceleration=60.0, mass=0.05)
+    runs = [simulate_block(conveyor, Block(0.03, height, LOCKED), Start(z=3e-4)) for height in (2e-3, 5e-5)]
+    assert runs[1].x_end == pytest.approx(runs[0].x_end, rel=1e-6)
+    assert runs[1].peak_force == pytest.approx(runs[0].peak_force, rel=1e-3)
+
+
 SIZES = st.floats(math.log(1e-4), math.log(0.1)).map(math.exp)
 
 
