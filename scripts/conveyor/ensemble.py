@@ -190,7 +190,10 @@ def sample_runs(
 
     for_each_chunk(work, len(rows), threads=threads, chunk=chunk, progress=progress)
     impact_speed, peak_force = peaks
-    codes[np.isnan(vx0) & (codes == OK)] = NOT_FINITE
+    failed = np.isnan(vx0)
+    codes[failed & (codes == OK)] = NOT_FINITE
+    for values in samples.values():
+        values[failed] = np.nan
     status = np.array(STATUS, dtype=object)[codes]
     return Columns(samples | {"impact_speed": impact_speed, "peak_force": peak_force, "status": status})
 

@@ -6,6 +6,7 @@ import pandas as pd
 import pytest
 import yaml
 from project import ROOT, dry_run, merged, read_config
+from scipy.integrate import solve_ivp
 
 from conveyor import Conveyor, damping_of, hertz_stiffness, restitution
 from conveyor.materials import ELASTOMERS, HARDNESS, materials
@@ -142,6 +143,19 @@ def test_variants_keep_the_bounce_or_the_stiffness():
 @pytest.mark.parametrize(
     "overlay", [MINE, {"prefix": "mine", "model": MODEL}, {"prefix": "mine", "model": MODEL | {"damping": 30.0}}]
 )
+@pytest.mark.parametrize("plate", [0.0, 30.0])
+def test_an_impact_presses_no_deeper_than_the_page_says(plate):
+    """A part that falls onto a plate which accelerates evenly upwards, as gravity that much larger would act."""
+    model = {"mass": 0.05, "stiffness": 4e5, "exponent": 1.5, "gravity": 9.81}
+    deepest = variants.penetration(model, 0.3, plate)
+
+    def rates(_, state):
+        return state[1], 9.81 + plate - model["stiffness"] / model["mass"] * max(state[0], 0.0) ** 1.5
+
+    run = solve_ivp(rates, (0.0, 5e-3), [0.0, 0.3], rtol=1e-10, atol=1e-14, max_step=1e-5)
+    assert deepest == pytest.approx(run.y[0].max(), rel=1e-4)
+
+
 def test_the_page_names_both_values_and_what_is_uncertain(overlay):
     settings, advice = made(overlay, 0.2 if "contact" in overlay else 0.0)
     rows = variants.make(advice, settings)

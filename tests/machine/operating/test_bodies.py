@@ -46,6 +46,12 @@ def test_an_upright_block_that_is_tiny_moves_as_its_place_in_the_population_says
     np.testing.assert_array_equal(one.velocity[:12], one.velocity[12:])
 
 
+def test_tall_blocks_tip_over_and_flat_ones_do_not():
+    tall = SETTINGS | {"body": {"length": 2e-3, "height": 6e-3, "tilt": 0.02}, "length": 0.02, "longest": 1.0}
+    found = [transit.measure(np.array([60.0]), own, (populations.IDENTICAL,)).tipped[0] for own in (tall, SETTINGS)]
+    assert found == [1.0, 0.0]
+
+
 def test_the_advice_says_what_it_would_be_for_points():
     settings = SETTINGS | {"length": 0.02, "longest": 1.0, "starts": 8}
     table = transit.measure(np.array([40.0, 80.0]), settings)

@@ -13,6 +13,7 @@ from conveyor_pipeline.config.tables import TABLES
 from conveyor_pipeline.machine.operating import start, start_page
 from conveyor_pipeline.machine.operating.parts import population
 from conveyor_pipeline.machine.operating.populations import IDENTICAL
+from conveyor_pipeline.machine.operating.ramps import ramp_ends
 
 SETTINGS = {**TABLES["operating/start"](si_config()), "starts": 1}
 HALF = 0.01  # s, of a cycle of 50 Hz
@@ -145,7 +146,7 @@ def test_limits_are_quantiles_of_the_parts_that_differ():
         ([0.9, 0.9], [0.9, 0.9], "Half of the parts jump already at 20 m/s²", "| below 20 | below 20 |"),
         ([0.0, 0.9], [0.9, 0.9], "half of the parts still jump at 20 m/s²", "| 40 | below 20 |"),
         ([0.0, 0.9], [0.9, 0.0], "half of the parts stop jumping at 40 m/s²", "| 40 | 40 |"),
-        ([0.0, 0.0], [0.0, 0.0], "ride at all amplitudes up to 40 m/s²", "| above 40 | ride at all amplitudes |"),
+        ([0.0, 0.0], [0.0, 0.0], "ride at all amplitudes up to 42 m/s²", "| above 42 | ride at all amplitudes |"),
     ],
 )
 def test_the_page_does_not_take_the_end_of_a_ramp_for_the_end_of_a_motion(made, rising, falling, sentence, row):
@@ -154,10 +155,31 @@ def test_the_page_does_not_take_the_end_of_a_ramp_for_the_end_of_a_motion(made, 
     paths = tuple(start.Path(flight, flight, flight) for flight in flights)
     limits = pd.DataFrame(start.limits_of(up, up[::-1], paths))
     ramps = tables["start"].assign(acceleration=np.resize(up, len(tables["start"])))
+    ramps.attrs = {**ramps.attrs, "acceleration": [0.0, 20.0, 40.0]}
     changed = tables | {"start": ramps, "start_limits": limits}
     page = start_page.make(TEMPLATE, advice, *(changed[name] for name in start.TABLES))
     assert sentence in page.splitlines()[2]
     assert f"| 50 % of the parts that differ {row}" in page
+
+
+def test_slow_ramps_pass_all_amplitudes_above_zero_and_some_more():
+    assert ramp_ends([0.0, 20.0, 60.0]) == (20.0, 63.0)
+    assert ramp_ends([30.0]) == (15.0, 31.5)
+
+
+def test_parts_that_slide_away_are_lost_and_end_nothing():
+    """On a track that is too steep, a part is soon faster than any run may begin."""
+    row, settings = rows_of(inclination=0.5, friction=0.3)
+    rows = np.concatenate([row, row])
+    moving = start.at_rest(rows)._replace(slip=np.array([-99.99, 0.0]))
+    path, _ = start.follow(rows, np.full(4, 30.0), moving, settings)
+    assert np.isnan(path.travelled[-1, 0]) and np.isfinite(path.travelled[-1, 1])
+
+
+def test_the_page_says_that_it_does_not_follow_blocks(made):
+    advice, tables = made
+    page = start_page.make(TEMPLATE, advice, *(tables[name] for name in start.TABLES), has_body=True)
+    assert "not the blocks of the section `body`" in page.splitlines()[2]
 
 
 def test_where_fewer_than_half_of_the_parts_jump_no_amplitude_is_named_at_which_half_of_them_stop(made):

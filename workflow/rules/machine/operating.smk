@@ -210,5 +210,6 @@ rule operating_page:
         page=one_of(ON_REQUEST),
     params:
         **stage("conveyor_pipeline.machine.operating.{page}_page"),
+        has_body="body" in config,
     script:
         "../../../scripts/conveyor_pipeline/make.py"

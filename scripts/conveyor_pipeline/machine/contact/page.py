@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor import restitution
+from conveyor import restitution, throw_number
 from conveyor.materials import ELASTOMERS, UNCERTAINTY, material
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.contact.derive import HERTZ, NAMED, drop_speed, moduli_of, on_level_plate
@@ -24,6 +24,12 @@ def describe(given: str | dict) -> dict:
     modulus, poisson = moduli_of(given)
     own = {"name": "the config's moduli", "description": "moduli of the config", "source": ""}
     return own | {"modulus": modulus, "low": modulus, "high": modulus, "poisson": poisson}
+
+
+def normal_acceleration(acceleration: float, model: dict) -> float:
+    """A bound on the acceleration of the plate normal to the track (m/s²); without harmonics, the largest one."""
+    largest = throw_number(acceleration, **model) * model["gravity"] * math.cos(model["inclination"])
+    return largest * (1.0 + sum(harmonic["normal"] for harmonic in model.get("harmonics", ())))
 
 
 def make(template: str, variants: pd.DataFrame, advice: pd.DataFrame) -> str:
@@ -51,7 +57,9 @@ def make(template: str, variants: pd.DataFrame, advice: pd.DataFrame) -> str:
             "most": rows.variant.loc[changes.idxmax()] if changes.notna().any() else None,
             "change": float(changes.max()),
         }
-    depths = {"drop": penetration(model, drop)} | {aim: penetration(model, speed) for aim, speed in impacts.items()}
+    depths = {"drop": penetration(model, drop)}
+    for row in advice[advice.aim.isin(impacts)].itertuples():
+        depths[row.aim] = penetration(model, row.impact_speed, normal_acceleration(row.acceleration, model))
     rest = (model["mass"] * model["gravity"] / model["stiffness"]) ** (1.0 / model["exponent"])
     values = {
         "contact": own,

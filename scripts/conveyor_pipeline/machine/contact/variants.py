@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 import pandas as pd
+from scipy.optimize import brentq
 
 from conveyor import damping_of, hertz_stiffness, restitution
 from conveyor.materials import material
@@ -80,10 +81,20 @@ def contacts(settings: dict) -> dict[str, dict[str, float]]:
     return found
 
 
-def penetration(model: dict, speed: float) -> float:
-    """Deepest penetration (m) of an impact at a speed (m/s) without damping and gravity, which bounds it nearly."""
-    energy = 0.5 * (model["exponent"] + 1.0) * model["mass"] * speed**2 / model["stiffness"]
-    return energy ** (1.0 / (model["exponent"] + 1.0))
+def penetration(model: dict, speed: float, plate: float = 0.0) -> float:
+    """Deepest penetration (m) of an impact at a speed (m/s) without damping, which makes it less deep.
+
+    plate : m/s², upwards acceleration of the plate, which presses the part into it as gravity does
+    """
+    power, mass = model["exponent"] + 1.0, model["mass"]
+    pull = mass * (model["gravity"] + plate)
+
+    def excess(depth: float) -> float:
+        return model["stiffness"] * depth**power / power - 0.5 * mass * speed**2 - pull * depth
+
+    fast = (power * mass * speed**2 / model["stiffness"]) ** (1.0 / power)
+    slow = (2.0 * power * pull / model["stiffness"]) ** (1.0 / model["exponent"])
+    return brentq(excess, 0.5 * fast, fast + slow)
 
 
 def make(advice: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, list]:

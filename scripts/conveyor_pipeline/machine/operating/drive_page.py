@@ -54,8 +54,11 @@ def ends_reached(design: dict, settings: dict) -> list[str]:
     return reached + [f"`drive.{name}`" for name, value in limits if value >= (1.0 - CLOSE) * settings[name]]
 
 
-def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFrame) -> str:
-    """The page from its template and the tables of the front and of the generations."""
+def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFrame, has_body: bool = False) -> str:
+    """The page from its template and the tables of the front and of the generations.
+
+    has_body : whether the config has blocks, which the search does not follow
+    """
     recommended = drive_front[drive_front.recommended].sort_values("checked_velocity", ascending=False, kind="stable")
     values = summarize_search(front=drive_front, generations=drive_generations)
     values |= {
@@ -63,6 +66,7 @@ def make(template: str, drive_front: pd.DataFrame, drive_generations: pd.DataFra
         "reached": ends_reached(recommended.iloc[0].to_dict(), drive_front.attrs) if len(recommended) else [],
         "throw_numbers": throw_numbers(recommended, drive_front.attrs["model"]),
         "late": (recommended.checked_late > MANY_LATE).sum(),
+        "has_body": has_body,
         "slides": is_steep(drive_front.attrs["model"]),
         "frictionless": is_frictionless(drive_front.attrs["model"]),
     }

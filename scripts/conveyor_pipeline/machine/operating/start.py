@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from conveyor import plate_motion, replace_parameters, sample_runs
+from conveyor import RANGES, plate_motion, replace_parameters, sample_runs
 from conveyor.analysis.attractors.labels import LONG_FLIGHT
 from conveyor.elementary import cos, exp, log
 from conveyor_pipeline.common import fields, grid
@@ -39,6 +39,7 @@ from conveyor_pipeline.machine.operating.ramps import (
     STEP,
     UP,
     WAYS,
+    ramp_ends,
 )
 from conveyor_pipeline.machine.operating.transit import quantiles
 
@@ -158,7 +159,10 @@ def follow(
             z0=scale * plate["z"][here] + motion.gap,
             vz0=scale * plate["vz"][here] + motion.rate,
         )
-        run = sample_runs(start, times, vx0=scale * plate["vx"][here] + motion.slip, threads=threads, **options)
+        speed = scale * plate["vx"][here] + motion.slip
+        # A part that slides away is lost once it is faster than any run may begin.
+        speed = np.where(np.abs(speed) <= RANGES["vz0"][1], speed, np.nan)
+        run = sample_runs(start, times, vx0=speed, threads=threads, **options)
         airborne, longest = motion.airborne, motion.airborne
         for force in run.contact_force.T[1:]:
             airborne = np.where(force == 0.0, airborne + 1, 0)
@@ -283,7 +287,7 @@ def slow_ramps(settings: dict, **options) -> tuple[list[dict], list[dict]]:
     axis = grid.axis_values("acceleration", settings["acceleration"])
     rows = np.concatenate([population(np.ones(1), settings, kind) for kind in (IDENTICAL, VARIED)])
     rows = rows[settings["starts"] - 1 :]  # one identical part, and the varied ones
-    up = slow_amplitudes(axis.min(), axis.max())
+    up = slow_amplitudes(*ramp_ends(axis))
     down = up[::-1]
     rising, motion = follow(rows, up, at_rest(rows), settings, **options)
     falling, _ = follow(rows, down, motion, settings, **options)

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor import throw_number
+from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.advice import EVEN, FAST
 from conveyor_pipeline.machine.operating.chart import stroke
@@ -25,6 +26,7 @@ from conveyor_pipeline.machine.operating.ramps import (
     SLOWLY,
     STEP,
     UP,
+    ramp_ends,
 )
 from conveyor_pipeline.machine.operating.start import LAST
 
@@ -71,8 +73,9 @@ def make(
     start_motions: pd.DataFrame,
     start_limits: pd.DataFrame,
     pushes: pd.DataFrame,
+    has_body: bool = False,
 ) -> str:
-    """The page from its template and its tables."""
+    """The page from its template and its tables; `has_body`: whether the config has blocks, which are not followed."""
     settings = start.attrs
     runs = []
     for row in advice.to_dict("records"):
@@ -82,7 +85,6 @@ def make(
         runs.append(about | {"ways": ways, "depends": depends(ways, settings["starts"]), "pushes": own})
     if len(runs) == 2 and runs[0]["acceleration"] == runs[1]["acceleration"]:
         runs = [runs[0] | {"aim": f"{FAST} and {EVEN}"}]
-    slow = start[start.aim == SLOWLY]
     limits = {
         (row["way"], row["population"], row["share"]): row
         for row in start_limits.replace({np.nan: None}).to_dict("records")
@@ -100,7 +102,8 @@ def make(
         "jump_first": JUMP_FIRST,
         "identical": IDENTICAL,
         "varied": VARIED,
-        "ends": (slow.acceleration.min(), slow.acceleration.max()),
+        "ends": ramp_ends(grid.axis_values("acceleration", settings["acceleration"])),
+        "has_body": has_body,
         "stroke_per_amplitude": stroke(1.0, settings["model"]["frequency"]),
         "throw_number_per_amplitude": throw_number(1.0, **settings["model"]),
         "failed": int(start_motions.failed.sum()),

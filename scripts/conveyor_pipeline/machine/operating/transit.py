@@ -44,6 +44,7 @@ MEASURES = (
     fields.number("back", "1", "share of the parts that have moved back after the longest time"),
     fields.number("impact_speed", "m/s", "95 % quantile of the largest speed of approach of a part; 0 for no impacts"),
     fields.number("peak_force", "N", "95 % quantile of the largest contact force of a part"),
+    fields.number("tipped", "1", "share of the blocks that tip over onto another side; null for points"),
     fields.count("failed", "parts whose run failed; the other columns do not contain them"),
 )
 TABLES = {
@@ -74,14 +75,18 @@ def follow(
 
 
 def follow_blocks(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Columns:
-    """What `follow` returns, with airtime and largest_tilt, for blocks: parts with the section `body`."""
+    """What `follow` returns, with airtime, largest_tilt and `tipped`, for blocks: parts with the section `body`.
+
+    A block tips over if its centre passes above the corner on which it stands.
+    """
     block = Block(settings["body"]["length"], settings["body"]["height"])
     tilts = np.resize(tilts_of(settings), len(rows))  # the same in each population
     longest = settings["longest"]
     track = {"length": settings["length"], "longest": longest, "begin": time_of_drop(rows["frequency"], longest)}
     options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
     run = block_transits(raise_blocks(rows, block, tilts), block, tilts, **track, **options)
-    return Columns({**run, "arrival": run.arrival[:, None], "velocity": run.velocity[:, None]})
+    tipped = run.largest_tilt > math.atan2(block.length, block.height)
+    return Columns({**run, "arrival": run.arrival[:, None], "velocity": run.velocity[:, None], "tipped": tipped})
 
 
 def follow_parts(rows: np.ndarray, settings: dict, **options) -> Columns:
@@ -148,6 +153,7 @@ def summarize(run: Columns) -> dict[str, float]:
         "late": np.isnan(arrival).mean(),
         "back": (velocity < 0.0).mean(),
         **{name: upper(run[name][right]) for name in ("impact_speed", "peak_force")},
+        "tipped": run.tipped[right].mean() if "tipped" in run else math.nan,
         "failed": np.count_nonzero(~right),
     }
 
