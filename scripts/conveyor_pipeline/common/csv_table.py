@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 MOST_FAULTS = 5  # that a message names
 DELETE = "delete the line"
 SAMPLED = 300  # lines that show how a file separates its columns
+PREAMBLE = 200  # lines among which the header is searched
 SURELY_THOUSANDS = 50  # numbers of a column
 SEPARATORS = (";", "\t", ",", " ")
 NUMBER = re.compile(r"[-+]?(\d[\d.,'\u00a0\u202f]*|[.,]\d+)([eE][-+]?\d+)?")
@@ -26,6 +27,7 @@ CLOCK = re.compile(
 )
 # A unit behind a name: Time (ms), accel [g], and in a line of its own: (s), m/s^2.
 UNIT = re.compile(r"\s*[(\[]([^()\[\]]*)[)\]]$")
+RESTART = 10.0  # intervals by which a time goes back where another run begins
 HOUR, DAY = 3600.0, 86_400.0  # s
 EXCEL_LINE = re.compile(r'"?sep=."?')
 
@@ -74,8 +76,12 @@ class Table(NamedTuple):
             time = (numbers - (numbers[0] if len(numbers) and np.isfinite(numbers[0]) else 0)) * scale
         wrong = np.flatnonzero(~np.isfinite(time))
         faults = [(int(self.lines[row]), number_fault("time", texts[row], DELETE)) for row in wrong]
-        for row in np.flatnonzero(np.diff(time) < 0.0) + 1:
+        back = np.flatnonzero(np.diff(time) < 0.0) + 1
+        restarts = len(back) == 1 and time[back[0]] - time[back[0] - 1] < -RESTART * np.median(np.abs(np.diff(time)))
+        for row in back:
             remedy = "sort the lines, or state excitation.rate (Hz) in place of the times"
+            if restarts:
+                remedy = "a second run, or an overflow of the clock, begins there; keep the lines before or behind it"
             faults.append((int(self.lines[row]), f"time = {texts[row]} is earlier than the line before; {remedy}"))
         return time, faults
 
@@ -167,10 +173,14 @@ def find_header(lines: Sequence[tuple[int, str]], separator: str, is_known: Call
         len(lines),
     )
     candidates = []
-    for place, (_, line) in enumerate(lines[: first + 1]):
+    for place, (_, line) in enumerate(lines[:PREAMBLE]):
         fields = split(line.lstrip("#"), separator)
         known = sum(is_known(field) for field in fields)
         is_comment = line.startswith("#")
+        # Settings before the header may hold several lines of numbers.
+        is_behind = place > first and (known < 2 or any(one[1] > 1 for one in candidates))
+        if is_behind:
+            continue
         if known or (place < first and len(fields) > 1 and not is_comment and not values_in(line, separator)):
             candidates.append(((known > 0) + (known > 0 and not is_comment), known, place))
     return max(candidates)[2] if candidates else None
@@ -189,6 +199,8 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
     text = text.replace("\u2212", "-")  # the minus of typesetters
     content = [(number, line.strip(" \r")) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
     content = [(number, line) for number, line in content if not EXCEL_LINE.fullmatch(line)]
+    while content and not content[-1][1].strip(',;\t" '):  # empty rows of a spreadsheet
+        content.pop()
     if all(line.startswith("#") for _, line in content):
         raise TableError([f"{path}:1: is empty; the first line names the columns, such as {example}"])
     try:

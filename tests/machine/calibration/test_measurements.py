@@ -89,6 +89,7 @@ BAD = {
     "zero sd": (f"{HEAD},sd\n30,0.02,0.001\n40,0.05,0\n50,0.06,\n", 3, "leave sd empty"),
     "angle in degrees": (f"{HEAD},angle\n30,0.02,20\n40,0.05,20\n50,0.06,20\n", 2, "(angles in rad)"),
     "velocities in cm/s": (f"{HEAD}\n30,2\n40,5\n50,6\n", 2, "in cm/s: divide by 100"),
+    "velocities in m/min": (f"{HEAD}\n30,1.2\n40,3\n50,3.6\n", 2, "in m/min: divide by 60"),
     "velocities in mm/s": (f"{HEAD}\n30,20\n40,50\n50,60\n", 2, "in mm/s: divide by 1000"),
     "accelerations in g": (f"{HEAD}\n3,0.02\n4,0.05\n5,0.06\n", 2, "Is the acceleration in g: multiply by 9.81?"),
     "fewer rows than parameters": (f"{HEAD}\n30,0.02\n40,0.05\n", 3, "2 measurements cannot determine 3 parameters"),

@@ -322,6 +322,110 @@ def test_lost_samples_with_the_times_of_the_others_are_right():
     assert_right(estimates(text_of(TIMES[kept], READINGS[:, kept])))
 
 
+@pytest.mark.parametrize(("rate", "digits", "lost"), [(400.0, 3, 1), (1600.0, 4, 5)])
+@pytest.mark.parametrize("seed", range(3))
+def test_few_lost_samples_between_rounded_times_make_no_harmonics(rate, digits, lost, seed):
+    """A drive that is nearly locked to the sampling repeats the roundings of its times in each cycle."""
+    time, readings = sampled(rate, 1600, frequency=50.01)
+    kept = np.ones(len(time), dtype=bool)
+    kept[np.random.default_rng(seed).choice(len(time), lost, replace=False)] = False
+    found = estimates(text_of(np.round(time, digits)[kept], readings[:, kept], digits=digits))
+    values, errors, orders, quality = found
+    assert quality["sampling"] == ROUNDED and orders == []
+    assert abs(values["acceleration"] - PURE.acceleration) < 3.5 * errors["acceleration"] < 0.2
+    assert abs(values["frequency"] - 50.01) < 3.5 * errors["frequency"]
+
+
+@pytest.mark.parametrize(
+    ("columns", "message"),
+    [
+        ("along normal lateral", "the axis normal to the track is ay; set excitation.columns: {time: t, x: ax, z: ay}"),
+        ("lateral along normal", "times as much in the column ay, which is not used"),
+        ("along lateral normal", None),
+    ],
+)
+def test_a_third_axis_tells_which_axes_are_right(columns, message):
+    drive = replace(PURE, mount=0.0)
+    time, (along, normal) = drive.record()
+    lateral = 0.02 * (normal - normal.mean()) + np.random.default_rng(1).normal(0.05, 0.1, len(time))
+    axes = {"along": along, "normal": normal, "lateral": lateral}
+    rows = np.array([time, *(axes[name] for name in columns.split())]).T
+    text = "\n".join(["t,ax,ay,az", *(",".join(f"{value:.6f}" for value in row) for row in rows), ""])
+    if message:
+        assert message in fault_of(text, mount=0.0)
+    else:
+        assert_right(estimates(text, mount=0.0))
+
+
+@pytest.mark.parametrize("share", [0.12, 0.4])
+def test_a_subharmonic_is_not_taken_for_the_drive_unless_the_config_says_so(share):
+    drive = Drive(frequency=50.0, acceleration=share * 36.0, harmonics=((2, 1.0 / share, 0.0, 1.0 / share, 0.0),))
+    text = text_of(*drive.record(), header="time,along,normal")
+    assert "if it vibrates at 100 Hz and every second cycle differs, record the plate without parts" in fault_of(
+        text, mount=0.0
+    )
+    assert "differs in every second cycle" in fault_of(text, mount=0.0, frequency=100.0)
+    found = estimates(text, mount=0.0, frequency=50.0)
+    assert found[0]["frequency"] == pytest.approx(50.0, abs=1e-2) and found[2] == [2]
+
+
+@pytest.mark.parametrize("away", [0.7, 0.9, 1.2])
+def test_a_line_beside_the_drive_is_part_of_its_errors(away):
+    """Where the recording hardly separates both, as hum of the mains beside a drive of nearly its frequency."""
+    ratios = []
+    for phase in range(4):
+        drive = replace(PURE, frequency=49.6, rate=1600.0, cycles=99.2, psi0=1.5 * phase)
+        time, readings = drive.record(phase)
+        hum = 0.8 * np.cos(2.0 * np.pi * (49.6 + away / 2.0) * time)
+        values, errors, *_ = estimates(text_of(time - time[0], readings + np.array([[1.0], [0.3]]) * hum))
+        ratios += [abs(values[name] - getattr(drive, name)) / errors[name] for name in values]
+    assert max(ratios) < 3.5
+
+
+def test_steps_of_a_converter_hide_no_harmonic_of_a_drive_that_is_nearly_locked():
+    for seed in range(6):
+        time, readings = replace(PURE, rate=800.0, frequency=50.0 + 3e-4 * (1 + seed), noise=0.05).record(seed)
+        text = text_of(time - time[0], 0.6 * np.round(readings / 0.6))
+        settings = {**PURE.settings, "measured": "mine.csv"}
+        made = measure.make(text, settings)["harmonics"]
+        shares = np.array(made["normal"]) / np.array(made["normal_stderr"])
+        assert shares.max() < 3.5
+
+
+@pytest.mark.parametrize("rate", [400.0, 500.0, 600.0])
+def test_harmonics_at_few_locked_phases_are_no_cut_off_peaks(rate):
+    random = np.random.default_rng(4)
+    for _ in range(12):
+        angles = random.uniform(-3.0, 3.0, 4)
+        harmonics = ((2, 0.05, angles[0], 0.06, angles[1]), (3, 0.03, angles[2], 0.04, angles[3]))
+        drive = replace(PURE, rate=rate, harmonics=harmonics, psi0=random.uniform(0.0, 6.0))
+        try:
+            check(text_of(*drive.record()), PURE.settings)
+        except TableError as error:
+            # Order 3 at 8 samples in a cycle changes its sign from sample to sample.
+            assert "or the drive has a harmonic of order" in str(error)
+
+
+def test_lines_of_settings_with_numbers_may_precede_the_header():
+    before = "Channel,1,2\nRange,16,16\nOffset,0,0\n"
+    assert_right(estimates(before + text_of(TIMES, READINGS)))
+
+
+def test_empty_rows_at_the_end_do_not_count():
+    assert_right(estimates(text_of(TIMES, READINGS) + ",,\n,,\n"))
+
+
+def test_a_second_run_in_a_file_is_not_to_be_sorted():
+    text = text_of(np.concatenate([TIMES, TIMES]), np.hstack([READINGS, READINGS]))
+    assert "a second run, or an overflow of the clock, begins there" in fault_of(text)
+
+
+def test_a_unit_behind_a_name_counts():
+    text = text_of(TIMES, READINGS / STANDARD_GRAVITY, header="time,accel_x_g,accel_z_g")
+    found = check(text, {"mount": PURE.mount, "columns": {"x": "accel_x_g", "z": "accel_z_g"}})
+    assert found.unit == "g"
+
+
 @pytest.mark.parametrize("ratio", [0.7, 0.9])
 @pytest.mark.parametrize("rate", [400.0, 1600.0, 1730.0])
 def test_two_sensors_in_one_file_are_refused(ratio, rate):

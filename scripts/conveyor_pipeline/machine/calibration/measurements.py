@@ -133,7 +133,7 @@ def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tuple
         ]
     # The factor by which most velocities exceed half of the plate's velocity, and the unit that explains it.
     factor = median(abs(row.velocity) / (0.5 * bound) for row, bound in fast)
-    units = {100.0: "cm/s: divide by 100", 1000.0: "mm/s: divide by 1000", 1000.0 / 60.0: "m/min: divide by 60"}
+    units = {100.0: "cm/s: divide by 100", 1000.0: "mm/s: divide by 1000", 60.0: "m/min: divide by 60"}
     nearest = min(units, key=lambda one: abs(math.log(factor / one)))
     row, bound = fast[0]
     remedy = f"is the velocity in {units[nearest]}? Is the acceleration in g: multiply by 9.81?"

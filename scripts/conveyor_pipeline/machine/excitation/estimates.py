@@ -25,15 +25,16 @@ from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
 from conveyor_pipeline.machine.excitation.gravity import NO_GRAVITY, Gravity, wrap
-from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of
+from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of, phases_of
 from conveyor_pipeline.machine.excitation.modulation import modulation_of
 from conveyor_pipeline.machine.excitation.reading import AXES, Recording, turn
 from conveyor_pipeline.machine.excitation.sample_times import CHECKED
 
 PARAMETERS = {"acceleration": "m/s²", "frequency": "Hz", "angle": "rad", "phase_shift": "rad"}
 SHARES = ("along", "along_phase", "normal", "normal_phase")
-# Frequencies on either side of a harmonic, in units of 1/T. The fit of the frequency takes a part of the first.
-FIRST, MOST_SIDEBANDS = 2, 24
+# Frequencies on either side of a harmonic, in units of 1/T, and the first of them, among which a line beside the drive
+# stands out by this factor, which noise hardly reaches.
+MOST_SIDEBANDS, NEAREST, BESIDE = 24, 3, 3.0
 SLOW = 3  # first of them, at which a wandering phase shows
 # A random walk of the phase has a slope whose variance is this multiple of what the SLOW frequencies would say of white
 # noise; it counts where their power is clearly above the noise.
@@ -66,12 +67,6 @@ class Noise(NamedTuple):
         return float(t_distribution.ppf(0.975, self.degrees)) / NORMAL
 
 
-def phases_of(recording: Recording, fit: Fit) -> int:
-    """The number of different phases of the drive at which samples were taken."""
-    phases = np.mod((recording.time - fit.middle) * fit.frequency, 1.0)
-    return len(np.unique(np.round(phases, 4) % 1.0))
-
-
 def step_variance(recording: Recording, fit: Fit) -> np.ndarray:
     """Variance of each amplitude (m²/s⁴) from the steps of the converter, shape (2,).
 
@@ -81,7 +76,7 @@ def step_variance(recording: Recording, fit: Fit) -> np.ndarray:
     """
     step = recording.quanta.max()
     noise = np.maximum((fit.residual**2).mean(axis=1) - step**2 / 12.0, 0.0)
-    distortion = 0.0123 * step**3 / np.abs(fit.amplitudes[:, 0]) + step**2 / (6.0 * phases_of(recording, fit))
+    distortion = 0.0123 * step**3 / np.abs(fit.amplitudes[:, 0]) + step**2 / (6.0 * phases_of(recording.time, fit))
     return distortion * np.exp(-4.0 * math.pi**2 * noise / step**2)
 
 
@@ -95,7 +90,7 @@ def timing_variance(recording: Recording, fit: Fit) -> np.ndarray:
     scatter = modulation_of(recording.time[part], fit._replace(residual=fit.residual[:, part])).scatter
     orders = np.arange(1, fit.orders + 1)
     rounding = 2.0 * math.pi * fit.frequency * recording.resolution
-    repeated = rounding**2 / (12.0 * phases_of(recording, fit)) * np.abs(fit.amplitudes[:, :1]) ** 2
+    repeated = rounding**2 / (12.0 * phases_of(recording.time, fit)) * np.abs(fit.amplitudes[:, :1]) ** 2
     return repeated + (0.5 * orders**2 * scatter**2 * np.abs(fit.amplitudes)) ** 2
 
 
@@ -123,7 +118,7 @@ def noise_of(recording: Recording, fit: Fit, others: tuple[Fit, ...] = ()) -> No
     time, count = recording.time - fit.middle, len(recording.time)
     duration = duration_of(recording.time)
     cycles = fit.frequency * duration
-    last = min(FIRST + MOST_SIDEBANDS - 1, math.ceil(cycles) - 1)
+    last = min(MOST_SIDEBANDS, math.ceil(cycles) - 1)
     shifts = np.arange(1, last + 1)
     begins = np.linspace(0, count, min(count, BLOCKS), endpoint=False).astype(np.int64)
     sizes = np.diff([*begins, count])
@@ -146,15 +141,21 @@ def noise_of(recording: Recording, fit: Fit, others: tuple[Fit, ...] = ()) -> No
         added += relative_difference(fit, other) ** 2
     both = 0.5 * (above + np.conj(below)), -0.5j * (above - np.conj(below))
     added += wander_variance(fit, both[1])
-    amplitude, phase = (part[..., FIRST - 1 :] for part in both)
+    amplitude, phase = both
     return Noise(
         amplitude, phase, both[1][..., :SLOW], sum(np.abs(part) ** 2 for part in both), added, 2 * amplitude.shape[-1]
     )
 
 
 def variance(error: np.ndarray) -> np.ndarray:
-    """Variance of the mean of a slow function of time, from its spectrum near zero along the last axis."""
-    return (np.abs(error) ** 2).mean(axis=-1)
+    """Variance of the mean of a slow function of time, from its spectrum near zero along the last axis.
+
+    The mean over all frequencies, or over the nearest ones if it is clearly larger, as where another vibration lies
+    beside the drive.
+    """
+    power = np.abs(error) ** 2
+    mean, near = power.mean(axis=-1), power[..., :NEAREST].mean(axis=-1)
+    return np.where(near > BESIDE * mean, near, mean)
 
 
 def values_of(amplitudes: np.ndarray, frequency: float) -> dict[str, float]:

@@ -17,6 +17,7 @@ from conveyor_pipeline.machine.excitation.harmonics import (
     first_fit,
     fit,
     gaps_of,
+    phases_of,
     sampling_rate,
     steadiness,
 )
@@ -31,6 +32,7 @@ from conveyor_pipeline.machine.excitation.modulation import (
     jump_of,
     losses_of,
     modulation_of,
+    order_at_half,
     timing_line,
 )
 from conveyor_pipeline.machine.excitation.reading import (
@@ -68,6 +70,9 @@ NEAR, SPIKE, PLATEAU, FLAT, LEAST_FLAT = 0.002, 4.0, 3.0, 0.01, 20
 CHANCE_OF_FLAT = 0.01  # that the flattest wave looks cut off
 # Straight lines between samples: least share in each of several pieces, and ratio to those that nearly are on a line.
 LINES, STRAIGHT, PIECES = 0.1, 3.0, 8
+VARIED = 33  # different phases, of 64
+CYCLES = {2: "second", 3: "third", 4: "fourth"}
+WEAK = 2.0  # times as strong as the fundamental: a harmonic that may be the drive itself
 # Strips at the extreme, in halves of the span of the values; ratio of the first to the second; and how many times the
 # largest gap between phases, and the largest step, the first must be.
 HALVINGS, STEEP, GAPS = (5, 13), 8.0, 4.0
@@ -213,8 +218,12 @@ def time_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
         yield None, f"has times so coarse that its rate is known to {100 * recording.rate_error:.2g} % only; {remedy}"
 
 
-def interpolation_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+def interpolation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """Samples on straight lines between those that a slower sensor has measured."""
+    recording = signal.recording
+    # Few phases repeat the same few triples of samples, so that their shares are chance.
+    if phases_of(signal.time, signal.fitted) < VARIED:
+        return
     intervals = np.maximum(np.diff(recording.time), 1e-12)
     weight = intervals[1:] / (intervals[1:] + intervals[:-1])
     for key, readings, quantum in zip(recording.columns, recording.readings, recording.quanta, strict=True):
@@ -232,6 +241,30 @@ def interpolation_faults(recording: Recording) -> Iterator[tuple[int | None, str
                 "amplitudes and harmonics smaller; export the samples as they were measured",
             )
             return
+
+
+def subharmonic_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+    """A fundamental that may be a weak subharmonic of the drive: every second (third, fourth) cycle differs."""
+    frequency, sizes = signal.fitted.frequency, np.hypot(*np.abs(signal.fitted.amplitudes))
+    order = 1 + int(np.argmax(sizes))
+    drive = order * frequency
+    cycle = CYCLES.get(order)
+    if cycle and not signal.settings.get("frequency") and sizes[order - 1] > WEAK * sizes[0]:
+        yield (
+            None,
+            f"vibrates at {drive:.5g} Hz and, with {100.0 * sizes[0] / sizes[order - 1]:.2g} % of that, at "
+            f"{frequency:.5g} Hz: set model.frequency: {frequency:.5g} if the drive has a strong harmonic; if it "
+            f"vibrates at {drive:.5g} Hz and every {cycle} cycle differs, record the plate without parts",
+        )
+        return
+    order = round(frequency / signal.other[0]) if signal.other else 0
+    if order in CYCLES and abs(order * signal.other[0] - frequency) < 1.0 / duration_of(signal.time):
+        yield (
+            None,
+            f"differs in every {CYCLES[order]} cycle: it vibrates at {frequency:.5g} Hz and, with "
+            f"{signal.other[1]:.2g} m/s², at {signal.other[0]:.5g} Hz, as where parts bounce on the plate, or a magnet "
+            "is fed unevenly; record the plate without parts, and mend the feed of the magnet",
+        )
 
 
 def count_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
@@ -257,6 +290,13 @@ def count_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             )
 
 
+def or_harmonic(signal: Signal) -> str:
+    """What else a change from sample to sample may be, if half of the sampling rate is a multiple of the drive's."""
+    if not (order := order_at_half(signal.time, signal.fitted)):
+        return ""
+    return f", or the drive has a harmonic of order {order - 1} or {order + 1}, which another sampling rate shows"
+
+
 def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     """Samples that are lost, or whose times are wrong."""
     found = signal.modulation
@@ -274,8 +314,8 @@ def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
         yield (
             None,
             f"has a phase that swings by {line[1]:.2g} rad over {1.0 / line[0]:.4g} samples, as no vibration does: the "
-            f"times are not those of the samples. If every {every:.3g}th sample is lost, the drive vibrates at "
-            f"{right:.5g} Hz; record without losses, or with the time of each sample",
+            f"times are not those of the samples{or_harmonic(signal)}. If every {every:.3g}th sample is lost, the "
+            f"drive vibrates at {right:.5g} Hz; record without losses, or with the time of each sample",
         )
     elif jump := signal.jump("imag"):
         yield (
@@ -306,8 +346,8 @@ def sensor_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
         yield (
             None,
             f"alternates from line to line between amplitudes that differ by {200.0 * half:.2g} %, as two sensors in "
-            "one file do, or one whose samples are lost regularly; keep the lines of one sensor, and record without "
-            "losses",
+            f"one file do, or one whose samples are lost regularly{or_harmonic(signal)}; keep the lines of one sensor, "
+            "and record without losses",
         )
     elif jump := signal.jump("real"):
         parts = slice(0, jump.sample), slice(jump.sample, len(signal.time))
@@ -368,7 +408,7 @@ def ambiguity_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
         return
     for other in signal.recording.others:
         time = other.time[:CHECKED]
-        found = first_fit(time, other.acceleration[:, :CHECKED])[0].frequency
+        found = first_fit(time, other.acceleration[:, :CHECKED], stated)[0].frequency
         if abs(found - frequency) > DIFFERENT / duration_of(time):
             yield (
                 None,
@@ -501,10 +541,12 @@ def share_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
 
 
 # Where a group finds faults, the next ones would only find their consequences.
-OF_TIMES = ((time_faults, interpolation_faults), (gap_faults,))
+OF_TIMES = ((time_faults,), (gap_faults,))
 OF_SIGNAL = (
     (count_faults,),
+    (interpolation_faults,),
     (sensor_faults,),
+    (subharmonic_faults,),
     (frequency_faults, sampling_faults),
     (phase_faults,),
     (saturation_faults,),
@@ -518,7 +560,7 @@ OF_SIGNAL = (
 def signal_of(recording: Recording, settings: Mapping[str, Any], samples: int = CHECKED) -> Signal:
     """The first samples of a recording, with their fit."""
     time = recording.time[:samples]
-    fitted, other = first_fit(time, recording.acceleration[:, :samples])
+    fitted, other = first_fit(time, recording.acceleration[:, :samples], settings.get("frequency"))
     return Signal(recording, fitted, other, modulation_of(time, fitted), settings)
 
 

@@ -22,6 +22,7 @@ LEAST_CYCLES = 1.5  # of the lowest frequency that is a vibration and no drift
 PIECE = 4  # cycles, at least, of a piece of the recording whose amplitude is measured
 MOST_PIECES = 50
 CHECKED_ORDERS = 8  # of a first fit
+PHASES = 64  # in a cycle that count as different; a drive that is nearly locked to the sampling drifts by less
 # A further line counts from this share of the fundamental of its axis, if its power is this multiple of the noise's
 # median power nearby, and if it is this far from all multiples of the fundamental; the last two in units of 1/T.
 SHARE, OUT_OF_NOISE, NEARBY, FOOT = 0.05, 40.0, 20, 2.0
@@ -199,8 +200,16 @@ def further_line(time: np.ndarray, fitted: Fit) -> tuple[float, float] | None:
     return (float(frequencies[place]), float(amplitudes[axis, place])) if counts[axis, place] else None
 
 
-def first_fit(time: np.ndarray, signals: np.ndarray) -> tuple[Fit, tuple | None]:
-    """The harmonics, and a line that is no multiple of their frequency, or None."""
+def phases_of(time: np.ndarray, fitted: Fit) -> int:
+    """The number of different phases of the drive at which samples were taken, up to PHASES."""
+    return len(np.unique(np.round(PHASES * (time - fitted.middle) * fitted.frequency) % PHASES))
+
+
+def first_fit(time: np.ndarray, signals: np.ndarray, stated: float | None = None) -> tuple[Fit, tuple | None]:
+    """The harmonics, and a line that is no multiple of their frequency, or None.
+
+    stated : frequency of the drive (Hz), if it is known; it decides whether a weaker line is the fundamental
+    """
     rate = sampling_rate(time)
 
     def fitted(guess: float) -> Fit:
@@ -210,7 +219,8 @@ def first_fit(time: np.ndarray, signals: np.ndarray) -> tuple[Fit, tuple | None]
     other = further_line(time, model)
     # The strongest line may be a harmonic of a weaker fundamental.
     for order in range(2, MOST_SUBHARMONIC + 1) if other else ():
-        if abs(order * other[0] - model.frequency) < 1.0 / duration_of(time):
+        is_stated = stated and stated > model.frequency / math.sqrt(order)
+        if abs(order * other[0] - model.frequency) < 1.0 / duration_of(time) and not is_stated:
             model = fitted(model.frequency / order)
             return model, further_line(time, model)
     return model, other

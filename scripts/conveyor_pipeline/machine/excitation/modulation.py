@@ -32,6 +32,7 @@ SHORT = 0.25  # lowest of these frequencies in a short recording, in units of th
 SLOW_LINES, ALONE = 7, 0.1
 EDGE = 0.03  # energy that a straight line leaves of a step, per sample, below which the step is too near an end
 PLACES = 50.0  # of a jump in a recording, as if their noise were independent
+HALF_RATE = 8  # highest order of a harmonic that may have half of the sampling rate
 SCATTERED = 1.5  # ratio of the powers of both parts from which times scatter
 
 
@@ -101,6 +102,16 @@ def is_sawtooth(found: Modulation, frequency: float) -> bool:
     that is lost again and again: twice this frequency has half of its amplitude, and none if a drive hunts."""
     sizes = [found.phase[np.abs(found.frequency - times * frequency) < 1.5 / found.count].max() for times in (1, 2)]
     return bool(sizes[1] > 0.25 * sizes[0])
+
+
+def order_at_half(time: np.ndarray, fitted: Fit) -> int | None:
+    """The multiple of the drive's frequency that is half of the sampling rate, or None.
+
+    Harmonics of the orders beside it change their sign from sample to sample.
+    """
+    multiple = 0.5 * sampling_rate(time) / fitted.frequency
+    away = abs(multiple - round(multiple)) * fitted.frequency * (time[-1] - time[0])
+    return round(multiple) if away < FOOT and round(multiple) <= HALF_RATE else None
 
 
 def alternates(found: Modulation) -> float | None:

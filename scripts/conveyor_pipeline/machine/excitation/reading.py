@@ -39,6 +39,11 @@ KNOWN = {"time": re.compile(r"(time|timestamp|t|(time|timestamp|t)[ _](s|ms|us|�
 KNOWN |= {name: re.compile(name, re.IGNORECASE) for name in AXES}
 KNOWN |= {name: re.compile(rf"((linear )?acc(el|eleration)?[ _.]?|a)?{name}", re.IGNORECASE) for name in SENSOR}
 
+# The third axis of a sensor; the size of its mean over gravity that no offset has, and how much more than a used one it
+# vibrates if the wrong axes are used.
+THIRD = re.compile(r"((linear )?acc(el|eleration)?[ _.]?|a)?y", re.IGNORECASE)
+GRAVITY, STRONGER = (0.5, 1.5), 2.0
+
 
 class Recording(NamedTuple):
     """Acceleration of the plate over time, with gravity and offsets of the sensor."""
@@ -70,6 +75,12 @@ def wanted(settings: Mapping[str, Any]) -> Callable[[str], bool]:
     named = {name.lstrip("-").strip().lower() for name in settings.get("columns", {}).values()}
     named |= {name.strip().lower() for name in settings.get("columns", {}).values()}
     return lambda header: is_known(header) or bool(named & spellings_of(header))
+
+
+def unit_behind(name: str) -> str:
+    """The unit at the end of a name, such as time_ms or accel_x_g; empty for none."""
+    written = re.search(r"[ _](ms|us|µs|ns|g|mg)$", name, re.IGNORECASE)
+    return written[1].lower() if written else ""
 
 
 def spellings_of(header: str) -> set[str]:
@@ -211,7 +222,7 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
     if faults:
         raise table.error((table.header, fault) for fault in faults)
     pair = AXES if AXES[0] in names else SENSOR
-    units = [table.units[places[key]] for key in pair]
+    units = [table.units[places[key]] or unit_behind(names[key]) for key in pair]
     unit, faults = unit_of(settings.get("unit"), units, UNITS, "unit")
     mount, rate = settings["mount"], settings.get("rate")
     if pair == AXES and mount != 0.0:
@@ -219,8 +230,7 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
         faults.append(f"has columns along and normal, but excitation.mount = {mount} turns x and z only; {remedy}")
     time_unit = "s"
     if rate is None:
-        written = re.search(r"[ _](ms|us|µs|ns)$", names["time"], re.IGNORECASE)
-        header = table.units[places["time"]] or (written[1].lower() if written else "")
+        header = table.units[places["time"]] or unit_behind(names["time"])
         time_unit, more = unit_of(settings.get("time_unit"), [header], TIME_UNITS, "time_unit")
         if header in LONG_UNITS:
             more = [
@@ -236,6 +246,8 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
         values, wrong = table.numbers(places[key], key, remedy_of_line(rate is not None))
         readings.append(-values if names[key].startswith("-") and names[key] not in table.names else values)
         faults += wrong
+    if not faults and pair == SENSOR and not {*SENSOR} & {*settings.get("columns", {})}:
+        faults += third_axis_faults(table, names, places, readings, unit)
     if rate is None:
         time, wrong = table.seconds(places["time"], TIME_UNITS[time_unit])
         faults += wrong
@@ -255,6 +267,30 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
         *(time, turn(measured, mount), pair, measured, quanta, lines, names, unit, time_unit),
         sampling="stamped" if rate is None else "rate",
     )
+
+
+def third_axis_faults(
+    table: Any, names: Mapping[str, str], places: Mapping[str, int], readings: list, unit: str
+) -> list[tuple[int, str]]:
+    """What a third axis, which is not used, says about the choice of x and z that the config does not state."""
+    free = [place for place, name in enumerate(table.names) if place not in places.values() and THIRD.fullmatch(name)]
+    if len(free) != 1:
+        return []
+    values, wrong = table.numbers(free[0], table.names[free[0]])
+    if wrong or not len(values):
+        return []
+    name, least = table.names[free[0]], min(float(np.std(one)) for one in readings)
+    upright = columns_entry({**names, "z": name})
+    if GRAVITY[0] < abs(values.mean()) * UNITS[unit] / STANDARD_GRAVITY < GRAVITY[1]:
+        shown = f"has gravity in the column {name}, which is not used"
+        return [(table.header, f"{shown}: the axis normal to the track is {name}; set {upright}, with your own x")]
+    if values.std() > STRONGER * least:
+        shown = (
+            f"vibrates {values.std() / max(least, 1e-300):.3g} times as much in the column {name}, which is not used"
+        )
+        there = f"say which axes are along (x) and normal to the track (z), such as {upright}"
+        return [(table.header, f"{shown}, as in one of {quote(names['x'])} and {quote(names['z'])}; {there}")]
+    return []
 
 
 def remedy_of_line(is_counted: bool) -> str:

@@ -1,9 +1,10 @@
 """When the samples of a recording were taken, if the times in the file do not say it exactly.
 
 Loggers round times, stamp all samples of a buffer at once, or read a sensor more often than it measures. Most sensors
-measure evenly, so a recording has up to four interpretations: with its times as stamped or evenly spaced, and with or
-without the lines that repeat the readings of the line before. The signal decides: wrong times add power to what a
-periodic signal leaves, or, if their errors repeat in every cycle of the drive, to its harmonics.
+measure evenly, so a recording has up to six interpretations: with its times as stamped, evenly spaced, or evenly spaced
+but for lost samples, and with or without the lines that repeat the readings of the line before. The signal decides:
+wrong times add power to what a periodic signal leaves, or, if their errors repeat in every cycle of the drive, to its
+harmonics.
 """
 
 import math
@@ -24,12 +25,14 @@ LIKELY = 2.0  # times the power beside the fundamental of the chosen times, up t
 FINE = 0.25  # of the mean interval: rounding by less is no sign of lost samples
 LEEWAY = 1.5  # of deviations from a straight line over the resolution, up to which times are rounded
 CLUSTER = 0.2  # width of a cluster of intervals, in units of the distance between two
+MOST_LOST = 0.2  # share of the samples that may be lost where rounded times show each loss
 FEW_GAPS = 0.002  # share of the intervals, beside one; more are the pauses between buffers
 MOST_GAPS = 0.75  # share of the recording without samples, beyond which cycles cannot be counted across gaps
 # Share of the lines that may repeat the time of the line before, as rounded times of random samples do. Where rounding
 # makes more of them equal, it is coarse enough to blur the harmonics.
 MOST_EQUAL = 0.05
 BENT = 4.0  # standard errors of the rate in half of a recording, from which it differs from that in the other
+COUNTS, CLEARLY = 4, 0.9  # rounds in which samples are counted, and intervals by which their times may deviate
 DIGITS = 12  # decimals of times that are searched for their resolution
 
 
@@ -64,13 +67,33 @@ def last_decimal(time: np.ndarray) -> float:
     return 0.0
 
 
-def even(time: np.ndarray) -> Even:
-    """The straight line through times over the number of the sample; gaps take a whole number of samples."""
+def numbers_of(time: np.ndarray) -> np.ndarray:
+    """The numbers of samples without losses, shape (n,): only long gaps take more than one."""
     intervals, is_gap = gaps_of(time)
     if np.count_nonzero(is_gap) > 1 + FEW_GAPS * len(intervals) or not intervals[~is_gap].any():
         is_gap = np.zeros_like(is_gap)
     steps = np.where(is_gap, np.maximum(np.round(intervals / intervals[~is_gap].mean()), 1.0), 1.0)
-    index = np.concatenate([[0.0], np.cumsum(steps)])
+    return np.concatenate([[0.0], np.cumsum(steps)])
+
+
+def numbers_with_losses(time: np.ndarray) -> np.ndarray | None:
+    """The numbers of samples of which some are lost, if times that are rounded by less than an interval show each loss,
+    or None."""
+    intervals = np.diff(time)
+    usual, most = float(np.median(intervals)), LEEWAY * resolution_of(time)
+    if usual <= 0.0:
+        return None
+    for _ in range(COUNTS):
+        steps = np.maximum(np.round(intervals / usual), 1.0)
+        numbers = np.concatenate([[0.0], np.cumsum(steps)])
+        usual, start = np.polyfit(numbers, time, 1)
+    span = np.ptp(time - start - usual * numbers)
+    is_clear = span <= min(most, CLEARLY * usual)
+    return numbers if is_clear and 1.0 < steps.mean() < 1.0 + MOST_LOST else None
+
+
+def even(time: np.ndarray, index: np.ndarray) -> Even:
+    """The straight line through times over the numbers of the samples, shape (n,)."""
     slope, start = np.polyfit(index - index.mean(), time, 1)
     fitted = start + slope * (index - index.mean())
     rest = time - fitted
@@ -115,14 +138,19 @@ def interpretations(recording: Recording) -> list[Recording]:
         stamped.append(keep(recording, ~same)._replace(repeated=int(np.count_nonzero(same))))
     found, spaced = [], []
     for one in stamped:
-        line = even(one.time)
+        line = even(one.time, numbers_of(one.time))
         rate_error = line.rate_error if recording.sampling == STAMPED else 0.0
         if is_even(line):
             found.append(one._replace(rate_error=rate_error))
             continue
         found.append(one._replace(resolution=last_decimal(one.time)))
-        sampling = ROUNDED if line.deviation <= LEEWAY * line.resolution else EVEN
-        spaced.append(one._replace(time=line.time, sampling=sampling, rate_error=rate_error))
+        lines = [line]
+        if (numbers := numbers_with_losses(one.time)) is not None:
+            lines.append(even(one.time, numbers))
+        for line in lines:
+            sampling = ROUNDED if line.deviation <= LEEWAY * line.resolution else EVEN
+            rate_error = line.rate_error if recording.sampling == STAMPED else 0.0
+            spaced.append(one._replace(time=line.time, sampling=sampling, rate_error=rate_error))
     return found + spaced
 
 

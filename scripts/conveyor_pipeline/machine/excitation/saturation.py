@@ -14,6 +14,7 @@ LEAST = 8  # samples in a strip
 SURE, FLAT, EXPLAINED = 6.0, 4.0, 6.0
 CHANCE = 1e-3  # that more orders seem to explain the readings between the extremes better
 SINGULAR = 1e12  # condition number of samples at too few phases
+PHASES, SPARE = 64, 6  # phases of a cycle that count as different, and those beyond the unknowns that must remain
 # Width of a strip at each extreme, as a share of the span, and a share of the readings that no wave of a drive has in
 # each of both strips: a cosine has 0.09 and 0.14, and hardly any wave with three harmonics of up to 0.35 has more.
 FLAT_TOPS = ((0.02, 0.2), (0.05, 0.3))
@@ -34,7 +35,10 @@ def exceeds(values: np.ndarray, quantum: float, design: np.ndarray, width: float
     most = products @ np.linalg.solve(gram, products)
     variance = (values[between] @ values[between] - most) / (count - len(design))
     flat = values[strip].std() + quantum
-    for low in range(1, orders):
+    phases = np.arctan2(part[2 + orders], part[2]) / (2.0 * math.pi)
+    separate = len(np.unique(np.round(PHASES * phases) % PHASES))
+    # Between fewer phases, orders that are missing would hide by chance.
+    for low in range(1, min(orders, (separate - SPARE) // 2)):
         rows = np.r_[: 2 + low, 2 + orders : 2 + orders + low]
         inverse, mean = np.linalg.inv(gram[np.ix_(rows, rows)]), design[np.ix_(rows, strip)].mean(axis=1)
         coefficients, more = inverse @ products[rows], 2 * (orders - low)
