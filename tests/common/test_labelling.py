@@ -12,36 +12,8 @@ SETTINGS = {
 }
 
 
-@pytest.fixture(scope="module")
-def starts():
-    return grid.product(SETTINGS["axes"], {})[1]
-
-
-@pytest.fixture(scope="module")
-def labels(starts):
-    return labelling.label_entry(starts, SETTINGS)
-
-
 def equal(found, other) -> bool:
     return all(np.array_equal(found[name], other[name], equal_nan=found[name].dtype.kind == "f") for name in found)
-
-
-def test_all_states_are_there(labels):
-    assert {"first", "second", "chaos"} <= set(labels.state)
-
-
-@pytest.mark.parametrize("conveyors", [1, 2])
-def test_labels_do_not_depend_on_batches(monkeypatch, starts, labels, conveyors):
-    monkeypatch.setattr(labelling, "CONVEYORS", conveyors)
-    assert len(labelling.batches_by_conveyor(starts)) == -(-3 // conveyors)
-    assert equal(labelling.label_entry(starts, SETTINGS, threads=2), labels)
-
-
-def test_labels_do_not_depend_on_the_order_of_initial_conditions(monkeypatch, starts, labels):
-    monkeypatch.setattr(labelling, "CONVEYORS", 1)
-    order = np.random.default_rng(1).permutation(len(starts))
-    found = labelling.label_entry(starts[order], SETTINGS)
-    assert equal(found, labels.select(order))
 
 
 @pytest.mark.parametrize(("count", "settling", "sets"), [(9, 4000, 1), (9, 3000, 0), (7, 20_000, 0)])

@@ -548,11 +548,6 @@ def test_numba_without_its_compiler_is_refused_in_a_sentence():
     assert "intrinsic" not in run.stderr
 
 
-def test_a_run_that_continues_a_failed_one_fails():
-    found = conveyor.sweep(changed_table("vz0", np.nan), duration=0.01)
-    assert found.status.tolist() == ["ok", "impact not found"]
-
-
 def test_exponents_over_more_cycles_than_memory_holds_are_refused():
     with pytest.raises(ValueError, match=r"blocks = 10000 of cycles = 1000000 for 2 trajectories"):
         conveyor.lyapunov_spectrum(TABLE, cycles=10**6, blocks=10**4)

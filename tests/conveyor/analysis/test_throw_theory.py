@@ -65,20 +65,3 @@ def test_throw_number_of_a_flight_is_smooth_where_the_series_takes_over():
     border = 2.0 * throw_theory.SHORT / (2.0 * math.pi)
     below, above = throw_theory.throw_number_of_flight(border * np.array([1.0 - 1e-9, 1.0 + 1e-9])) - 1.0
     assert below == pytest.approx(above, rel=1e-8)
-
-
-def test_a_climbing_track_is_slower_by_the_fall_during_the_flight():
-    """And by the longer flight with less gravity across the track, here kept by a smaller amplitude."""
-    throw = throw_theory.throw_number(60.0, **PAPER)
-    flight = throw_theory.flight_cycles(throw) / 50.0
-    level = throw_theory.throw_velocity(60.0, **PAPER)
-    climbing = throw_theory.throw_velocity(60.0 * math.cos(0.05), **PAPER, inclination=0.05)
-    fall = 0.5 * 9.81 * math.sin(0.05) * flight**2 * 50.0
-    assert climbing == pytest.approx(level * math.cos(0.05) - fall, rel=1e-9)
-
-
-def test_the_velocity_is_a_harmonic_of_the_phase_shift():
-    along, across = (throw_theory.throw_velocity(60.0, **PAPER, phase_shift=shift) for shift in (0.0, 0.5 * math.pi))
-    for shift in (0.3, 2.0, 4.0):
-        expected = along * math.cos(shift) + across * math.sin(shift)
-        assert throw_theory.throw_velocity(60.0, **PAPER, phase_shift=shift) == pytest.approx(expected, abs=1e-15)

@@ -1,4 +1,4 @@
-"""Fixed steps in lanes: sine and cosine, bits that do not depend on lanes, a plain loop, closed forms."""
+"""Fixed steps in lanes: sine and cosine, and bits that do not depend on the number of lanes."""
 
 import math
 
@@ -9,12 +9,10 @@ from conveyor import Conveyor, Start
 from conveyor.methods import fixed_step
 from conveyor.methods.fixed_step_lanes import CHECK
 from conveyor.methods.scheme import (
-    CONTACT_TIME,
     EULER,
     EVENTS,
     FORCE_EVALUATIONS,
     IMPACTS,
-    MAX_GAP,
     STATUS,
 )
 from conveyor.methods.sine import sine_and_cosine
@@ -35,10 +33,7 @@ from conveyor.solver.status import NOT_FINITE, OK
 
 STEP = 1e-3 / 64
 INDICES = np.array([0, 1, 1, 255, 256, 257, 1000, 3700, 5000])
-# A conveyor on which the part soon jumps, for each kind of exponent.
-STIFFNESS = {1.0: 3e3, 1.5: 5e5, 1.8: 5e6}
 TILTED = {"inclination": 0.1, "phase_shift": -0.8, "friction": 0.3, "static_friction": 0.9}
-ABOVE, ON, INSIDE = Start(5e-5, -0.05), Start("conveyor", -0.1), Start(-2e-5)
 
 
 def follow(parameters, step=STEP, n_steps=5000, indices=INDICES, n_events=20, method=EULER):
@@ -90,50 +85,6 @@ def fill(phases, values):
         values[i] = sine_and_cosine(phases[i])
 
 
-def slow_euler(parameters, step, n_steps, sincos):
-    """A plain implementation of Euler's method from Eqs. 2-12: samples at all steps, events, and a row of results."""
-    a, phi, f, psi0, k_c, d_c, mu, m, p, g, alpha, shift, mu_s, tension, z0, vz0 = map(float, parameters)
-    (ahead, straight), (down, normal), (sine, cosine) = sincos(shift), sincos(alpha), sincos(phi)
-    a_x, downhill, g = a * cosine, g * down, g * normal
-    omega = 2.0 * math.pi * f
-    plate_z, plate_vz, plate_vx = a * sine / (omega * omega), a * sine / omega, a * cosine / omega
-    x, vx, z, vz = 0.0, 0.0, z0, vz0
-    if math.isnan(z0):
-        z = -plate_z * sincos(psi0)[1]
-    sine, cosine = sincos(psi0)
-    last_slip = plate_vx * (sine * straight + cosine * ahead)
-    samples, events, gaps, pushed, fastest, strongest = [], [], [], 0, 0.0, 0.0
-    for i in range(n_steps + 1):
-        sine, cosine = sincos(omega * (i * step) + psi0)
-        gap = z + plate_z * cosine
-        push = rub = 0.0
-        if gap <= 0.0:
-            length = -gap * math.sqrt(-gap) if p == 1.5 else (-gap) ** p
-            push = k_c / m * length - d_c / m * (vz - plate_vz * sine)
-            if push < 0.0 and tension == 2.0:
-                push = 0.0
-            if push > 0.0 or tension == 0.0:
-                rub = mu * push * float(np.sign(plate_vx * (sine * straight + cosine * ahead) - vx))
-        slip = plate_vx * (sine * straight + cosine * ahead) - vx
-        pull = a_x * (cosine * straight - sine * ahead) + downhill
-        if mu_s > mu and gap <= 0.0 and last_slip * slip <= 0.0 and abs(pull) <= mu_s * push:
-            vx, slip, rub = vx + slip, 0.0, pull
-        last_slip = slip
-        samples.append((x, vx, z, vz, m * push, m * rub + 0.0))
-        if i < n_steps:
-            if gaps and (gap <= 0.0) != (gaps[-1] <= 0.0):
-                events.append((i * step, 0.0 if gap <= 0.0 else 1.0))
-                if gap <= 0.0:
-                    fastest = max(fastest, plate_vz * sine - vz)
-            gaps.append(gap)
-            pushed += push != 0.0
-            strongest = max(strongest, push)
-            x, vx, z, vz = x + step * vx, vx + step * (rub - downhill), z + step * vz, vz + step * (push - g)
-    impacts = sum(kind == 0.0 for _, kind in events)
-    results = [x, vx, z, vz, len(events), impacts, pushed * step, max(gaps), n_steps, 0.0, fastest, m * strongest]
-    return np.array(samples), np.array(events), np.array(results)
-
-
 @pytest.mark.parametrize("size", [1.0, 1e3, 1e6, 1e9])
 def test_sine_and_cosine(size):
     """Within two units in the last place of the C library, which itself errs by half a unit."""
@@ -181,69 +132,6 @@ def test_plates_that_differ_only_in_their_harmonics_are_not_alike():
     parameters[:, [FREQUENCY, PSI0, PHASE_SHIFT]] = parameters[0, [FREQUENCY, PSI0, PHASE_SHIFT]]
     single = np.concatenate([bits(follow(parameters[[k]])) for k in range(17)])
     np.testing.assert_array_equal(bits(follow(parameters)), single)
-
-
-def test_neither_order_nor_neighbours_nor_chunks_matter():
-    parameters = random_parameters(17, seed=200)
-    expected = bits(follow(parameters))
-    order = np.random.default_rng(2).permutation(17)
-    np.testing.assert_array_equal(bits(follow(parameters[order])), expected[order])
-    np.testing.assert_array_equal(bits(follow(np.repeat(parameters, 3, axis=0))), np.repeat(expected, 3, axis=0))
-    for begin, end in ((0, 3), (3, 5), (5, 17)):
-        np.testing.assert_array_equal(bits(follow(parameters[begin:end])), expected[begin:end])
-
-
-@pytest.mark.parametrize(
-    ("tension", "exponent", "start", "track"),
-    [
-        ("allow", 1.0, ON, TILTED),
-        ("allow", 1.5, ABOVE, {}),
-        ("allow", 1.5, INSIDE, TILTED),
-        ("allow", 1.8, INSIDE, {}),
-        ("frictionless", 1.0, INSIDE, TILTED),
-        ("frictionless", 1.0, ABOVE, {}),
-        ("frictionless", 1.5, ON, {}),
-        ("frictionless", 1.8, ABOVE, TILTED),
-        ("clip", 1.0, ABOVE, {}),
-        ("clip", 1.5, INSIDE, TILTED),
-        ("clip", 1.5, ON, {}),
-        ("clip", 1.8, ON, TILTED),
-    ],
-)
-def test_the_plain_loop(tension, exponent, start, track):
-    """A plain loop with the same sine and cosine gives the same bits; with the C library's it differs by rounding."""
-    contact = {"exponent": exponent, "tension": tension, "stiffness": STIFFNESS[exponent]}
-    parameters = pack(Conveyor(psi0=0.3, **contact, **track), start)
-    n_steps = 3000
-    found = follow(np.array([parameters]), n_steps=n_steps, indices=np.arange(n_steps + 1))
-    samples, events, results = (array[0] for array in found)
-    n_events = int(results[EVENTS])
-    assert results[IMPACTS] >= 1
-
-    values = np.empty((1, 2))
-
-    def own(phase):
-        fill(np.array([phase]), values)
-        return values[0].tolist()
-
-    same_samples, same_events, same_results = slow_euler(parameters, STEP, n_steps, own)
-    np.testing.assert_array_equal(samples.view(np.int64), same_samples.view(np.int64))
-    np.testing.assert_array_equal(events[:n_events], same_events)
-    np.testing.assert_array_equal(results[:-2], same_results[:-2])
-    # Peaks count since the last sample.
-    _, _, (unwatched,) = follow(parameters[None], n_steps=n_steps, indices=[])
-    np.testing.assert_array_equal(unwatched, same_results)
-    assert np.isnan(events[n_events:]).all()
-
-    slow_samples, slow_events, slow_results = slow_euler(
-        parameters, STEP, n_steps, lambda t: (math.sin(t), math.cos(t))
-    )
-    scale = np.abs(slow_samples).max(axis=0)
-    np.testing.assert_allclose(samples / scale, slow_samples / scale, rtol=0.0, atol=1e-12)
-    np.testing.assert_array_equal(events[:n_events], slow_events)
-    counted = [EVENTS, IMPACTS, CONTACT_TIME, FORCE_EVALUATIONS, STATUS]
-    np.testing.assert_array_equal(results[counted], slow_results[counted])
-    assert results[MAX_GAP] == pytest.approx(slow_results[MAX_GAP], rel=1e-12)
 
 
 def test_a_state_that_is_not_finite():

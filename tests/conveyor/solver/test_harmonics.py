@@ -101,15 +101,6 @@ def test_plate_moves_as_defined():
 
 
 @COMPILES
-def test_harmonic_without_amplitude_changes_nothing():
-    conveyor = Conveyor(acceleration=45.0), Conveyor(acceleration=45.0, harmonics=[{"order": 2}])
-    plain, other = (simulate(one, Start(z=3e-4), duration=0.1, tolerance=1e-13) for one in conveyor)
-    assert plain.impacts == other.impacts > 3
-    assert other.x_end == pytest.approx(plain.x_end, rel=1e-11)
-    assert other.max_gap == pytest.approx(plain.max_gap, rel=1e-12)
-
-
-@COMPILES
 def test_a_table_may_hold_plates_with_and_without_harmonics():
     """Plates of one table have the same number of harmonics; those of a pure plate have no amplitude."""
     pure, harmonic = Conveyor(acceleration=45.0), Conveyor(acceleration=45.0, harmonics=[{"order": 2, "normal": 0.1}])

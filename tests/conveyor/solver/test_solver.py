@@ -29,12 +29,6 @@ def test_reference_values(acceleration, z):
     assert run.mean_velocity() == pytest.approx(REFERENCE[acceleration, z], rel=1e-9)
 
 
-def test_reference_values_without_friction_under_tension():
-    for acceleration, z, expected in ((40.0, 3e-4, 0.06458466344), (30.0, 0.0, 0.00709947805)):
-        run = simulate(Conveyor(acceleration=acceleration, tension="frictionless"), Start(z), tolerance=1e-11)
-        assert run.mean_velocity() == pytest.approx(expected, rel=1e-9)
-
-
 def test_free_fall():
     """A parabola and a uniform motion, up to the first impact at its exact time."""
     start = Start(z=0.02, vz=0.1)

@@ -8,7 +8,7 @@ import pytest
 from conveyor import Conveyor, Start
 from conveyor.analysis import stroboscopic_map
 from conveyor.analysis.bifurcations import bifurcation_points, continuation, periodic_orbits
-from conveyor.analysis.bifurcations.bifurcation_points import GRAZING, find_bifurcation
+from conveyor.analysis.bifurcations.bifurcation_points import find_bifurcation
 from conveyor.analysis.bifurcations.newton import difference_quotients
 from conveyor.analysis.dimensionless_groups import Groups, amplitude_of, groups_of, length_and_speed_units, packed
 from conveyor.solver import contact
@@ -21,17 +21,6 @@ GUESSES = {"fold": (-3.41, 1.614, 0.50815), "period_doubling": (-6.257, 0.5009, 
 
 def of_paper(kind):
     return find_bifurcation(kind, 1, GUESSES[kind], groups_of(PAPER))
-
-
-@pytest.mark.parametrize(("damping", "stiffness"), [(1.3, 70.0), (0.4, 5.0), (0.05, 300.0)])
-def test_lift_off_of_a_linear_contact(damping, stiffness):
-    """It rides as x = 1/K + Γ/|K - 1 + iD| cos(θ - φ), and leaves the plate where both terms are equal."""
-    response = stiffness - 1.0 + 1j * damping
-    exact = abs(response) / stiffness
-    phase = (math.pi + np.angle(response)) % (2.0 * math.pi)
-    groups = Groups(exact, damping, stiffness, 1.0, 0)
-    point = find_bifurcation(GRAZING, 1, (phase + 1e-3, 1.001 * exact), groups)
-    assert point.groups.amplitude == pytest.approx(exact, rel=1e-8)
 
 
 def rigid(kind, damping_ratio):

@@ -63,19 +63,6 @@ def test_an_orbit_comes_back_to_its_unknowns(jumping, parameter):
     assert returns.strobes(unknown) == pytest.approx(np.tile(unknown, (3, 1)), rel=1e-8)
 
 
-def test_multipliers_agree_with_finite_differences(jumping):
-    returns = periodic_orbits.ReturnMap(PARAMETERS, 1)
-    unknown = returns.scaled(40.0, jumping.state)
-    columns = []
-    for direction in np.eye(3)[:2]:
-        ahead, behind = (returns.strobes(unknown + sign * 1e-6 * direction)[-1, :2] for sign in (1.0, -1.0))
-        columns.append((ahead - behind) / 2e-6)
-    values = np.linalg.eigvals(np.column_stack(columns))
-    assert sorted(values, key=lambda value: value.imag) == pytest.approx(
-        sorted(jumping.multipliers, key=lambda value: value.imag), abs=1e-7
-    )
-
-
 def test_tests_of_bifurcations_are_determinants(branch):
     """det(M - 1) = (1 - μ1)(1 - μ2) and det(M + 1) = (1 + μ1)(1 + μ2), with real multipliers and with complex ones."""
     returns = periodic_orbits.ReturnMap(PARAMETERS, 1)
@@ -167,23 +154,6 @@ def test_error_of_the_accumulation_is_the_change_due_to_the_last_doubling():
 def test_doublings_whose_distances_do_not_shrink_have_no_accumulation():
     for amplitudes in (np.array([0.0, 1.0, 3.0, 7.0, 15.0]), np.arange(5.0), np.ones(4), np.array([0.0, 1.0, 1.2])):
         assert all(math.isnan(value) for value in doubling_cascade.accumulation_point(amplitudes))
-
-
-def test_feigenbaums_ratio_of_the_logistic_map():
-    """From the parameters a of 1 - a x² at which 0 returns to itself after 2, 4, … cycles."""
-    superstable = [0.0, 1.0, 1.31]
-    for n in range(2, 12):
-        a = superstable[n]
-        for _ in range(8):
-            x = slope = 0.0
-            for _ in range(2**n):
-                x, slope = 1.0 - a * x * x, -x * x - 2.0 * a * x * slope
-            a -= x / slope
-        superstable[n] = a
-        superstable.append(a + (a - superstable[n - 1]) ** 2 / (superstable[n - 1] - superstable[n - 2]))
-    assert doubling_cascade.doubling_ratios(np.array(superstable[:-1]))[-1] == pytest.approx(
-        doubling_cascade.FEIGENBAUM, rel=1e-6
-    )
 
 
 def test_no_orbit_is_found_without_one():
