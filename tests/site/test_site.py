@@ -72,11 +72,6 @@ def test_links_are_not_broken(page, links):
     assert broken(page, links) == []
 
 
-def test_a_broken_link_is_found(links):
-    planted = links | {"index.html": Links('<a href="nowhere.html">x</a><a href="figures.html#no-place">y</a>')}
-    assert broken("index.html", planted) == ["nowhere.html", "figures.html#no-place"]
-
-
 def test_every_figure_and_claim_is_shown(links):
     figures = (SITE / "figures.html").read_text(encoding="utf-8")
     for name in CONFIG["figures"]:

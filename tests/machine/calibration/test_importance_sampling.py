@@ -89,23 +89,6 @@ def test_both_of_two_distant_modes_are_found_with_their_shares():
     assert share(found.weights) == pytest.approx(0.25, abs=4.0 * error)
 
 
-@pytest.mark.usefixtures("exact")
-def test_the_monte_carlo_error_is_that_of_repetitions():
-    """The means of eight searches scatter over ten repetitions as the jackknife says, within a factor of two."""
-    means, errors = [], []
-    for repetition in range(10):
-        seeds = range(8 * repetition, 8 * repetition + 8)
-        options = OPTIONS | {"first": 100, "points": 100, "rounds": 2}
-        found = pooled([sample(one_factor(valley), BOUNDS, **options | {"seed": seed}) for seed in seeds])
-
-        def mean(weights, points=found.points):
-            return weights @ points[:, 0]
-
-        means.append(mean(found.weights))
-        errors.append(monte_carlo_error(found.weights, found.search, mean))
-    assert 0.5 < np.sqrt(np.mean(np.square(errors))) / np.std(means, ddof=1) < 2.0
-
-
 def test_the_monte_carlo_error_of_a_mean_is_its_standard_error():
     """Four searches of equal weight: the standard deviation of their means over the root of their number."""
     values, search = np.random.default_rng(6).normal(size=40), np.repeat(np.arange(4), 10)

@@ -176,20 +176,6 @@ def test_runs_with_the_same_beginning_are_followed_once():
     assert (status == "ok").all()
 
 
-def test_samples_of_both_first_runs_ascend(monkeypatch):
-    """Also if a mean covers less than a period."""
-    wanted = []
-
-    def last_quarters(parameters, durations, *_):
-        wanted.append(durations)
-        return np.ones_like(durations), np.ones((len(durations), 2)), np.full(len(durations), "ok")
-
-    monkeypatch.setattr(shares, "last_quarters", last_quarters)
-    for period in (0, 1, 100, 400):
-        velocity(Conveyor(), Start(0.0), period, cycles=1)
-    assert all((0.75 * durations[:, 1:] >= durations[:, :-1]).all() for durations in wanted)
-
-
 def test_brief_runs_are_as_long_as_friction_needs():
     """On a track steeper than friction holds, no length helps."""
     rows = np.stack([parameter_table(Conveyor(inclination=alpha), Start()) for alpha in (0.0, -0.147, 0.14888, 0.2)])
@@ -252,26 +238,6 @@ def test_where_motions_do_not_converge_a_few_initial_conditions_are_followed_to_
     assert tried.tolist() == [10, limit, limit, limit]
     assert others.tolist() == [10, shares.BRIEF, shares.BRIEF, limit]
     assert np.flatnonzero(labels.state == "undecided").tolist() == [starts + shares.TRIED - 1]
-
-
-def test_machines_with_equal_dimensionless_groups_have_equal_shares(table):
-    """Lengths in g/ω², velocities in g/ω: another frequency, gravity and mass, with matching damping and stiffness."""
-    paper = Conveyor()
-    frequency, gravity, mass = 3.0, 1.7, 5.0
-    length, velocity = gravity / frequency**2, gravity / frequency
-    model = {
-        "frequency": frequency * paper.frequency,
-        "gravity": gravity * paper.gravity,
-        "mass": mass * paper.mass,
-        "damping": mass * frequency * paper.damping,
-        "stiffness": mass * gravity / length**paper.exponent * paper.stiffness,
-    }
-    box = {"height": [length * end for end in BOX["height"]], "vz0": [velocity * end for end in BOX["vz0"]]}
-    other = shares.shares_at(gravity * np.array([22.0, 40.0]), {**BOX, **box, "model": model}, followed=2)
-    for name in ("state", "period", "starts", "share", "stderr", "motion"):
-        assert (other[name] == table[name]).all(), name
-    assert np.allclose(other.vertical, table.vertical, rtol=1e-12)
-    assert np.allclose(other.mean_velocity, velocity * table.mean_velocity, rtol=1e-6)
 
 
 def rows_at(acceleration: float) -> dict[str, list]:

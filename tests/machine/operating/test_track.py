@@ -1,4 +1,4 @@
-"""Velocities over inclination and phase shift: symmetries, single runs, and where parts slide away."""
+"""Velocities over inclination and phase shift: single runs, and where parts slide away."""
 
 import math
 
@@ -25,7 +25,7 @@ def make(**settings) -> pd.DataFrame:
 
 @pytest.fixture(scope="module")
 def table() -> pd.DataFrame:
-    return make(inclination=[-0.2, -0.05, 0.0, 0.05, 0.2], phase_shift=[-math.pi, 0.0, 1.0, math.pi])
+    return make(inclination=[-0.2, 0.0, 0.05, 0.2], phase_shift=[0.0, 1.0])
 
 
 @pytest.mark.parametrize(("inclination", "phase_shift"), [(0.0, 0.0), (0.05, 0.0), (0.0, 1.0)])
@@ -34,20 +34,6 @@ def test_velocities_agree_with_single_runs(table, inclination, phase_shift):
     for state, height in (("first", 0.0), ("second", 3e-4)):
         alone = simulate(conveyor, Start(height), duration=4.0).mean_velocity()
         assert table.mean_velocity[inclination, state, phase_shift] == pytest.approx(alone, abs=3e-5)
-
-
-def test_a_turn_of_the_phase_shift_changes_nothing_and_half_a_turn_mirrors_a_level_track(table):
-    level = table.mean_velocity[0.0]
-    for state in track.STATES:
-        assert level[state, -math.pi] == pytest.approx(level[state, math.pi], abs=1e-9)
-        assert level[state, math.pi] == pytest.approx(-level[state, 0.0], abs=1e-9)
-
-
-def test_mirroring_a_track_mirrors_the_velocity(table):
-    for state in track.STATES:
-        assert table.mean_velocity[0.05, state, math.pi] == pytest.approx(
-            -table.mean_velocity[-0.05, state, 0.0], abs=1e-9
-        )
 
 
 def test_a_track_steeper_than_friction_holds_has_no_velocity(table):
@@ -82,14 +68,6 @@ def test_a_part_that_slides_slowly_on_a_nearly_steep_track_is_found():
     """It gains 0.02 m/s in each second, which the plate's 0.125 m/s hide for a while."""
     found = make(inclination=[0.151], phase_shift=[0.0], model={"friction": 0.15, "static_friction": 0.3})
     assert found.status[0.151, "second", 0.0] == track.SLIDES_AWAY
-
-
-def test_static_friction_holds_a_part_that_does_not_slide():
-    found = make(
-        inclination=[0.2], phase_shift=[0.0], acceleration=0.5, model={"friction": 0.15, "static_friction": 0.3}
-    )
-    assert found.status[0.2, "first", 0.0] == "ok"
-    assert found.mean_velocity[0.2, "first", 0.0] == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_state_is_not_ruled_out_where_the_search_ended_early():
