@@ -25,7 +25,6 @@ WRONG = [
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),
     ({"model": {"frequency": 0.05}}, "it follows from the model: are model.frequency and model.angle right?"),
-    ({"model": {"angle": 0.001}}, "it follows from the model: are model.frequency and model.angle right?"),
     ({"model": {"stiffness": "500 N/mm"}}, "'500 N/mm' is not in the unit of the contact law; give it in N/m^1.5"),
     ({"model": {"angle": "120 deg"}}, "model.angle = '120 deg' should be at most 1.5708 (rad)"),
     (
@@ -46,17 +45,12 @@ WRONG = [
         {"sweeps": {"mine": {"axes": {"stiffness": ["5e5 N/m"]}}}},
         "sweeps.mine.axes.stiffness[0] = '5e5 N/m' is not in the unit of the contact law; give it in N/m^1.5",
     ),
-    ({"model": {"angle": "12"}}, "12° are 0.2094 rad"),
     ({"model": {"tension": "pull"}}, "model.tension = 'pull' should be 'allow', 'frictionless' or 'clip'"),
     ({"sweeps": {"mine": {"axes": {"z0": []}}}}, "sweeps.mine.axes.z0 = [] should have at least 1 item"),
     ({"sweeps": {"mine": {"axes": {}}}}, "sweeps.mine.axes = {} is empty"),
     (
         {"sweeps": {"mine": {"axes": {"angle": {"start": 0.1, "stop": 0.2, "num": 0}}}}},
         "sweeps.mine.axes.angle.num = 0 should be at least 1",
-    ),
-    (
-        {"sweeps": {"mine": {"axes": {"angle": {"start": 0.1, "stop": 12, "num": 2}}}}},
-        "axes.angle.stop = 12 should be at most 1.5708 (rad)",
     ),
     ({"sweeps": {"mine": {"axes": {"mass": [1.0e-3, -1.0]}}}}, "sweeps.mine.axes.mass[1] = -1.0 should be at least"),
     ({"sweeps": {"mine": {"axes": {"z0": {"start": 0.0}}}}}, "sweeps.mine.axes.z0.stop is missing"),
@@ -79,14 +73,9 @@ WRONG = [
         {"figures": {"fig99": {**CONFIG["figures"]["fig03"]}}},
         "fig99 has no files scripts/conveyor_pipeline/FLOOR/figures/fig99.py",
     ),
-    ({"prefix": "a/b"}, "prefix = 'a/b' should be a folder name"),
     ({"prefix": "a\n"}, "prefix = 'a\\n' should be a folder name of at most 64"),
     # accepted by earlier versions, with silently wrong results
     ({"estimates": {"height": {"model": {"z0": "conveyor"}}}}, "estimates.height.perturb = 'z0' has no effect"),
-    (
-        {"estimates": {"height": {"axes": {"z0": [0.0, "conveyor"]}}}},
-        "estimates.height.perturb = 'z0' has no effect because z0 is the word conveyor",
-    ),
     ({"estimates": {"phase": {"epsilon": 1.0e-300}}}, "estimates.phase.epsilon = 1e-300 should be at least 1e-15"),
     (
         {"estimates": {"height": {"epsilon": 1.0e-15, "axes": {"z0": [9.0]}}}},
@@ -100,18 +89,9 @@ WRONG = [
     ({"solver": {"step": 0.1}}, "solver.step (of sweeps.amplitudes) = 0.1 s is too long for 50 Hz"),
     ({"dimensions": {"portrait_euler": {"step": 3.0e-6}}}, "dimensions.portrait_euler.step = 3e-06"),
     ({"critical": {"edge": {"axes": {"z0": [0.0]}}}}, "critical.edge.axes.z0 is the scanned parameter"),
-    ({"critical": {"edge": {"model": {"z0": 0.0}}}}, "critical.edge.model.z0 is the scanned parameter"),
     (
         {"figures": {"fig09": {"marks": {"critical_hight": 1.0}}}},
         "figures.fig09.marks.critical_hight is an unknown key; did you mean critical_height?",
-    ),
-    (
-        {"figures": {"fig12": {"tables": {"euler": "sweeps/amplitudes"}}}},
-        "figures.fig12.tables.euler is an unknown key",
-    ),
-    (
-        {"figures": {"fig22": {"caption_tables": {"spectra": "lyapunov/spectrum"}}}},
-        "fig22.caption_tables.spectra is",
     ),
     # accepted by earlier versions, and failing in a job
     ({"orbits": {"limits": [20, 40]}}, "orbits.limits = [20.0, 40.0] m/s² must hold the amplitude of orbits.seeds[1]"),
@@ -123,7 +103,6 @@ WRONG = [
         {"critical": {"edge": {"scan": [0.0, 2.0e-4, 1.0e-4]}}},
         "critical.edge.scan = [0.0, 0.0002, 0.0001] is not",
     ),
-    ({"critical": {"edge": {"scan": [0.0]}}}, "critical.edge.scan = [0.0] should have at least 2 items, not 1"),
     ({"critical": {"edge": {"scan": {"num": 1}}}}, "critical.edge.scan.num = 1 should be at least 2"),
     (
         {"critical": {"edge": {"scan": [0.0, "conveyor"]}}},
@@ -150,24 +129,10 @@ WRONG = [
         {"sweeps": {"mine": {**MINE, "methods": ["event", "euler"]}, "mine_euler": MINE}},
         "sweeps.mine_euler is the name of two tables",
     ),
-    (
-        {
-            "sweeps": {
-                "a": {**MINE, "methods": ["event", "semi_implicit_euler"]},
-                "a_semi_implicit": {**MINE, "methods": ["event", "euler"]},
-            }
-        },
-        "sweeps.a_semi_implicit_euler is the name of two tables",
-    ),
     # settings that exclude each other
     ({"sweeps": {"amplitudes": {"method": "euler"}}}, "sweeps.amplitudes has both method and methods"),
-    (
-        {"signals": {"states": {"methods": ["event"], "step": 1.0e-6}}},
-        "signals.states.step is not used by the method event",
-    ),
     ({"sweeps": {"mine": {**MINE, "step": 1.0e-6}}}, "sweeps.mine.step is not used by the method event"),
     # folders of the default results
-    ({"prefix": "sweeps"}, "prefix = 'sweeps' is a folder of"),
     ({"prefix": "Logs"}, "prefix = 'Logs' is a folder of"),
     # tables and settings that the default config does not have there
     ({"figures": {"fig03": {"settings": {"acceleration": 40.0}}}}, "figures.fig03.settings.acceleration is an unknown"),
@@ -180,13 +145,8 @@ WRONG = [
         "orbits.model has static_friction = 0.1 below friction = 0.15; give a larger static_friction, or leave it out",
     ),
     ({"model": {"inclination": 3.0}}, "model.inclination = 3.0 should be at most 1.4 (rad); angles are in radians"),
-    (
-        {"figures_on_request": {"fig98": {**CONFIG["figures"]["fig03"]}}},
-        "fig98 has no files scripts/conveyor_pipeline/FLOOR/figures/fig98.py and fig98.rst",
-    ),
     # crashed the check of earlier versions, or ran without end
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "euler = 'model/acceleration' is unknown"),
-    ({"figures": {"fig03": {"tables": {"euler": "prefix/x"}}}}, "figures.fig03.tables.euler = 'prefix/x' is unknown"),
     ({1: {}}, "config has the key 1, which is not text"),
     ({"model": {0: None}}, "model has the key 0, which is not text; write decimal points, not commas"),
     ({"sweeps": {2024: MINE}}, "sweeps has the key 2024, which is not text; put it in quotes"),
