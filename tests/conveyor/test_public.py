@@ -556,6 +556,8 @@ def test_exponents_over_more_cycles_than_memory_holds_are_refused():
 def test_shapes_of_parameters_and_states_are_checked():
     with pytest.raises(ValueError, match=r"parameters must be a table from parameter_table, got the shape \(2, 15\)"):
         conveyor.sweep(np.zeros((2, 15)))
+    with pytest.raises(ValueError, match="duration"):
+        conveyor.sweep(TABLE, duration=[1.0, 2.0, 3.0])
     with pytest.raises(ValueError, match=r"states must have the shape \(2, 2\)"):
         conveyor.lyapunov_spectrum(TABLE, np.zeros((1, 2)))
     with pytest.raises(ValueError, match=r"start must have the shape \(2,\), δ \(m\) and v \(m/s\)"):
@@ -597,11 +599,6 @@ def test_a_branch_has_only_orbits_and_bifurcations_between_its_ends(orbit):
         assert high - 0.1 <= branch.orbits[-1].acceleration <= high
         ends[high] = [point.kind for point in branch.bifurcations]
     assert ends == {54.2: [], 54.22: ["period_doubling"]}
-
-
-def test_durations_have_the_shape_of_the_parameters():
-    with pytest.raises(ValueError, match="duration"):
-        conveyor.sweep(TABLE, duration=[1.0, 2.0, 3.0])
 
 
 def test_a_run_that_fails_has_no_numbers():

@@ -216,17 +216,6 @@ def test_the_stated_accuracy_is_measured(browser):
     assert stored == measured, "store the measured accuracy in accuracy.json"
 
 
-@pytest.mark.parametrize(("acceleration", "z0"), [(30.0, 0.0), (40.0, 0.3e-3), (47.0, 0.0), (52.5, 0.0)])
-def test_mean_velocities_agree_with_the_library(browser, acceleration, z0):
-    conveyor, start = Conveyor(acceleration=acceleration), Start(z0)
-    (found,) = follow(browser, [(conveyor, start, 1.0)])
-    run = simulate(conveyor, start, duration=1.0)
-    assert found["resolved"] == 1.0
-    assert found["measures"] == pytest.approx([run.mean_velocity(), run.impact_speed, run.peak_force], 1e-3, 1e-4)
-    times = run.events["time"][run.events["kind"] == "impact"]
-    assert [impact["time"] for impact in found["impacts"]] == pytest.approx(times, abs=2e-5)
-
-
 def test_forces_agree_with_the_library(browser):
     feeder = Conveyor(acceleration=47.0, tension="clip", inclination=0.05, phase_shift=1.0, static_friction=0.3)
     cases = [(conveyor, Start("conveyor"), 0.3) for conveyor in (feeder, Conveyor(acceleration=47.0))]

@@ -39,15 +39,11 @@ def test_no_number_of_a_page_is_typed(template):
     "text",
     [
         "accumulate at 62.77 m/s²",
-        "of Fig. 22 from 50 m/s² on",
         "$\\hat a = 62.77$",
         "$$\nz_0 = 31\n$$",
         "a share of `0.6` %",
         "fifty amplitudes",
         "C19 says 59",
-        "for eleven heights",
-        "to 1e-9 m",
-        "half of 1 s",
     ],
 )
 def test_a_planted_result_is_found(text):
