@@ -47,15 +47,6 @@ def test_profile_is_the_best_for_each_b():
         assert error[i] == pytest.approx(residual[0] / 25, rel=1e-8)
 
 
-def test_valley_is_flat():
-    """Triples that differ by a fifth in A fit 25 points with 6.4 µm scatter (the paper's error) equally well."""
-    scatter = 6.4e-6 / SCATTER.std() * SCATTER
-    height = critical_height(ACCELERATION, PAPER) + scatter
-    parameters, error = hyperbola_profile(ACCELERATION, height, np.linspace(*BOUNDS["B"], 2001))
-    equal = parameters[error < 1.05 * error.min()]
-    assert equal[:, 0].max() > 1.2 * equal[:, 0].min()
-
-
 @pytest.mark.parametrize(("triple", "seed"), [*((triple, 0) for triple in TRIPLES), (PAPER, 1)])
 def test_pymoo_reaches_the_least_squares_error(triple, seed):
     height = critical_height(ACCELERATION, triple) + SCATTER
