@@ -62,13 +62,6 @@ def test_a_guide_can_be_read_where_it_lies(page):
         assert not anchor or anchor in anchors(target), link
 
 
-def test_the_guide_on_recordings_says_how_to_record():
-    """No check finds a delay between the axes or a wrong sign of a level axis."""
-    guide = (ROOT / "docs/guides/measured_drive.md").read_text()
-    record = re.search(r"^## Record\n(.*?)^## ", guide, re.MULTILINE | re.DOTALL)[1]
-    assert {"Both axes at the same time", "Signs", "Times"} <= set(re.findall(r"\*\*(.*?)\.\*\*", record))
-
-
 def test_pre_commit_checks_what_ci_does():
     hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text())["repos"][0]["hooks"]
     commands = re.search(r'step "format and lint"\n(.*?)\n\n', CI, re.DOTALL)[1].replace('"$bin/', "").replace('"', "")
