@@ -30,9 +30,3 @@ def test_multipliers_at_bifurcations(result):
     table = result("orbits/folds_and_doublings")
     for kind, value in (("fold", 1.0), ("period_doubling", -1.0)):
         assert np.abs(table[table.kind == kind].multiplier - value).max() < 1e-3
-
-
-def test_cascade_follows_feigenbaum(result):
-    table = result("orbits/cascade")
-    late = table[table.number >= 8].ratio.dropna()
-    assert np.abs(late - 4.669201609).max() < 1e-3
