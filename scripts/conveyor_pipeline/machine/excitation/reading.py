@@ -283,7 +283,7 @@ def third_axis_faults(
     upright = columns_entry({**names, "z": name})
     if GRAVITY[0] < abs(values.mean()) * UNITS[unit] / STANDARD_GRAVITY < GRAVITY[1]:
         shown = f"has gravity in the column {name}, which is not used"
-        return [(table.header, f"{shown}: the axis normal to the track is {name}; set {upright}, with your own x")]
+        return [(table.header, f"{shown}: the axis normal to the track is {name}; set {upright}, and check x")]
     if values.std() > STRONGER * least:
         shown = (
             f"vibrates {values.std() / max(least, 1e-300):.3g} times as much in the column {name}, which is not used"
