@@ -32,7 +32,8 @@ class Block:
 
     Attributes
     ----------
-    length, height : m, along the track and normal to it, 1e-6 to 10
+    length, height : m, along the track and normal to it, 1e-6 to 10; a block that is thinner than it presses into the
+        plate touches with its upper corners, too
     inertia : moment of inertia around the centre over the mass, m²; None for a uniform mass, (length² + height²)/12
 
     Raises
@@ -168,7 +169,7 @@ def simulate_block(
         x_last=float(last[X]),
         x_end=float(end[X]),
         largest_tilt=largest_tilt,
-        airtime=known * airtime / (duration - before),
+        airtime=known * airtime / (duration - before) if before < duration else math.nan,
         impact_speed=known * impact_speed,
         peak_force=known * conveyor.mass * peak_force,
     )

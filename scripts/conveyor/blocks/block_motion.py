@@ -25,7 +25,6 @@ from .corners import (
     FREE,
     GAP,
     MODE,
-    OZ,
     PULLED,
     RATE,
     SLIP,
@@ -88,8 +87,6 @@ def next_impact(c, body, theta, state, limit, after, now):
             advance = math.inf
             for i in range(CORNERS):
                 gap, rate = now[GAP, i], now[RATE, i]
-                if gap <= 0.0 and now[OZ, i] >= 0.0:
-                    continue
                 if gap <= 0.0 and rate < 0.0:
                     return tau
                 if gap < -BELOW * margin:
@@ -104,13 +101,11 @@ def next_impact(c, body, theta, state, limit, after, now):
 def touch(now, margin):
     """Close the contacts of all corners that are at the plate and approach it, open those that leave it.
 
-    Corners above the centre stay open: those of a thin block may lie below the plate's surface.
-
     Returns whether a corner is in contact, and the largest speed of approach of a new contact (m/s).
     """
     touching, speed = False, 0.0
     for i in range(CORNERS):
-        if now[MODE, i] == FREE and now[GAP, i] <= margin and now[RATE, i] < 0.0 and now[OZ, i] < 0.0:
+        if now[MODE, i] == FREE and now[GAP, i] <= margin and now[RATE, i] < 0.0:
             now[MODE, i], now[PULLED, i] = FORWARD, 0.0
             speed = max(speed, -now[RATE, i])
         elif now[MODE, i] != FREE and now[GAP, i] >= (-margin if now[RATE, i] > 0.0 else margin):
@@ -155,7 +150,7 @@ def begin(c, body, parameters, tilt, state, now):
     corners.locate(c, body, theta, state, now)
     touching = False
     for k in range(CORNERS):
-        if now[GAP, k] <= 0.0 and now[OZ, k] < 0.0:
+        if now[GAP, k] <= 0.0:
             now[MODE, k], touching = FORWARD, True
     corners.push(c, now)
     for k in range(CORNERS):

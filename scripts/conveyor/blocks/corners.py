@@ -35,7 +35,8 @@ MOST_STICKING = 2  # the equations of more corners depend on each other
 # Share of the friction equations' diagonal that is added to it. Two corners at equal heights have dependent equations;
 # with this they share the friction as the contact force, so that both reach the limit of static friction together. It
 # is large enough that neither the rounding of their heights nor a slow rotation decides.
-REGULAR = 1e-4
+REGULAR = 1e-5
+LEAST_SHARE = 1e-6  # of the friction, for a corner that hardly touches the plate
 # The smallest size that counts as a step over a limit: of a gap (m), a slip velocity (m/s) and a force per mass (m/s²).
 Margins = namedtuple("Margins", "gap slip force")
 # Half of the length and of the height (m), and the moment of inertia per mass (m²).
@@ -109,6 +110,7 @@ def rub(c, body, pull, state, now):
             share = 0.5
             if min(now[FORCE, first], now[FORCE, second]) > 0.0:
                 share = now[FORCE, first] / (now[FORCE, first] + now[FORCE, second])
+                share = min(max(share, LEAST_SHARE), 1.0 - LEAST_SHARE)
             extra = REGULAR * (of_first + of_second)
             on_first, on_second = 0.5 * extra / share, 0.5 * extra / (1.0 - share)
             # The determinant without cancellation, and without a product of both: at equal heights, the sum of the

@@ -11,7 +11,7 @@ import numpy as np
 from ..solver import model
 from ..solver.jit import compiled, compiled_inline, copy
 from . import corners
-from .corners import ANGLE, CORNERS, FORCE, FORWARD, FREE, GAP, MODE, OZ, PULLED, RUB, SLIP, STATE, STICK, WHOLE, X
+from .corners import ANGLE, CORNERS, FORCE, FORWARD, FREE, GAP, MODE, PULLED, RUB, SLIP, STATE, STICK, WHOLE, X
 
 STAGES = 7
 NODES = np.array([0.0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0, 1.0])
@@ -91,9 +91,7 @@ def guard(c, now, kind, i):
     """A number that stays positive up to the next event of a kind at corner i."""
     mode = now[MODE, i]
     if kind == TOUCH:
-        if mode == FREE:
-            return now[GAP, i] if now[OZ, i] < 0.0 else math.inf
-        return -now[GAP, i]
+        return now[GAP, i] if mode == FREE else -now[GAP, i]
     if mode == FREE:
         return math.inf
     if kind == SLIDE:

@@ -356,13 +356,6 @@ def test_a_strong_damper_pushes_most_at_the_first_moment_of_an_impact(exponent, 
     assert run.peak_force == pytest.approx(point.peak_force, rel=3e-3)
 
 
-def test_the_upper_corners_of_a_thin_block_do_not_touch():
-    conveyor = Conveyor(acceleration=60.0, mass=0.05)
-    runs = [simulate_block(conveyor, Block(0.03, height, LOCKED), Start(z=3e-4)) for height in (2e-3, 5e-5)]
-    assert runs[1].x_end == pytest.approx(runs[0].x_end, rel=1e-6)
-    assert runs[1].peak_force == pytest.approx(runs[0].peak_force, rel=1e-3)
-
-
 SIZES = st.floats(math.log(1e-4), math.log(0.1)).map(math.exp)
 
 

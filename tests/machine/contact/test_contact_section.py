@@ -140,9 +140,6 @@ def test_variants_keep_the_bounce_or_the_stiffness():
     assert [round(found[name]["drop"], 3) for name in ("bounces less", "bounces more")] == [0.45, 0.55]
 
 
-@pytest.mark.parametrize(
-    "overlay", [MINE, {"prefix": "mine", "model": MODEL}, {"prefix": "mine", "model": MODEL | {"damping": 30.0}}]
-)
 @pytest.mark.parametrize("plate", [0.0, 30.0])
 def test_an_impact_presses_no_deeper_than_the_page_says(plate):
     """A part that falls onto a plate which accelerates evenly upwards, as gravity that much larger would act."""
@@ -156,6 +153,9 @@ def test_an_impact_presses_no_deeper_than_the_page_says(plate):
     assert deepest == pytest.approx(run.y[0].max(), rel=1e-4)
 
 
+@pytest.mark.parametrize(
+    "overlay", [MINE, {"prefix": "mine", "model": MODEL}, {"prefix": "mine", "model": MODEL | {"damping": 30.0}}]
+)
 def test_the_page_names_both_values_and_what_is_uncertain(overlay):
     settings, advice = made(overlay, 0.2 if "contact" in overlay else 0.0)
     rows = variants.make(advice, settings)
