@@ -37,6 +37,10 @@ def test_a_text_has_the_value_of_its_unit(text, unit, value):
     assert in_unit(text, unit) == pytest.approx(value, rel=1e-14)
 
 
+def test_a_right_angle_is_no_more_than_one():
+    assert in_unit("90 deg", "rad") == 0.5 * math.pi
+
+
 @pytest.mark.parametrize(
     ("text", "unit"),
     [("3 %", "rad"), ("3 rad", "1"), ("314 rad/s", "Hz"), ("3 N", "m"), ("3 mm mm", "m"), ("4 g", "m"), ("3 mm", "1")],
@@ -121,7 +125,7 @@ def test_origins_show_the_text(tmp_path):
     file.write_text("prefix: mine\nmodel: {angle: 20 deg}\n")
     command = [sys.executable, "-m", "conveyor_pipeline.config", "--show", str(file)]
     shown = subprocess.run(command, check=True, cwd=ROOT / "scripts", capture_output=True, text=True).stdout
-    assert f"model.angle = 0.349065850398866 rad    # {file}:2: 20 deg" in shown.replace("../", "")
+    assert f"model.angle = 0.3490658503988659 rad    # {file}:2: 20 deg" in shown.replace("../", "")
 
 
 def test_the_origin_of_a_converted_value_is_its_dimensionless_one():

@@ -93,7 +93,7 @@ def in_unit(text: str, unit: str) -> float:
     Examples
     --------
     >>> in_unit("20 deg", "rad"), in_unit("4 g", "m/s²"), in_unit("0.8 g", "kg"), in_unit("85 %", "1")
-    (0.349065850398866, 39.2266, 0.0008, 0.85)
+    (0.3490658503988659, 39.2266, 0.0008, 0.85)
     """
     if not is_quantity(text):
         comma = "; write decimal points, not commas" if re.match(r"\s*[-+]?\d+,\d", text) else ""
@@ -103,7 +103,9 @@ def in_unit(text: str, unit: str) -> float:
         key = f"N/m**{exponent_of(text) or 1.0!r}"
     if not quantity.is_compatible_with(registry().parse_units(key)):
         raise QuantityError(f"has a unit of another dimension; give {KEYS.get(unit, SHARES)}")
-    return float(f"{quantity.to(key).magnitude:.{DIGITS}g}")
+    magnitude = quantity.to(key).magnitude
+    # A right angle with fewer digits would be more than a right angle.
+    return float(magnitude) if unit == "rad" else float(f"{magnitude:.{DIGITS}g}")
 
 
 def length_in(text: str) -> str | None:
