@@ -355,8 +355,8 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
             touching, speed = go_on(c, body, theta, flying, kind, corner, state, now)
             if t >= since[i]:
                 result[IMPACT_SPEED] = max(result[IMPACT_SPEED], speed)
-                # A damper pushes most as a corner touches the plate.
-                result[PEAK_FORCE] = max(result[PEAK_FORCE], now[FORCE].sum()) if touching else result[PEAK_FORCE]
+                if touching:  # a damper pushes most as a corner touches the plate
+                    result[PEAK_FORCE] = max(result[PEAK_FORCE], now[FORCE].sum())
             known = False
         result[CODE] = code
         samples[i, int(result[SAMPLED]) :] = math.nan

@@ -178,8 +178,7 @@ def find_header(lines: Sequence[tuple[int, str]], separator: str, is_known: Call
         known = sum(is_known(field) for field in fields)
         is_comment = line.startswith("#")
         # Settings before the header may hold several lines of numbers.
-        is_behind = place > first and (known < 2 or any(one[1] > 1 for one in candidates))
-        if is_behind:
+        if place > first and (known < 2 or any(one[1] > 1 for one in candidates)):
             continue
         if known or (place < first and len(fields) > 1 and not is_comment and not values_in(line, separator)):
             candidates.append(((known > 0) + (known > 0 and not is_comment), known, place))

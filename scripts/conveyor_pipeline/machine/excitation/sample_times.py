@@ -136,21 +136,23 @@ def interpretations(recording: Recording) -> list[Recording]:
     stamped = [recording]
     if np.count_nonzero(same) >= LEAST_REPEATED and np.count_nonzero(~same) > 2:
         stamped.append(keep(recording, ~same)._replace(repeated=int(np.count_nonzero(same))))
+
+    def rate_error(line: Even) -> float:
+        return line.rate_error if recording.sampling == STAMPED else 0.0
+
     found, spaced = [], []
     for one in stamped:
         line = even(one.time, numbers_of(one.time))
-        rate_error = line.rate_error if recording.sampling == STAMPED else 0.0
         if is_even(line):
-            found.append(one._replace(rate_error=rate_error))
+            found.append(one._replace(rate_error=rate_error(line)))
             continue
         found.append(one._replace(resolution=last_decimal(one.time)))
         lines = [line]
         if (numbers := numbers_with_losses(one.time)) is not None:
             lines.append(even(one.time, numbers))
-        for line in lines:
-            sampling = ROUNDED if line.deviation <= LEEWAY * line.resolution else EVEN
-            rate_error = line.rate_error if recording.sampling == STAMPED else 0.0
-            spaced.append(one._replace(time=line.time, sampling=sampling, rate_error=rate_error))
+        for each in lines:
+            sampling = ROUNDED if each.deviation <= LEEWAY * each.resolution else EVEN
+            spaced.append(one._replace(time=each.time, sampling=sampling, rate_error=rate_error(each)))
     return found + spaced
 
 

@@ -7,6 +7,8 @@ import math
 
 import numpy as np
 
+from conveyor_pipeline.machine.excitation.harmonics import PHASES
+
 HALVINGS = np.arange(5, 13)  # widths of the strips at both extremes, in halves of the span of the readings
 LEAST = 8  # samples in a strip
 # Standard errors by which the wave must exceed the readings in a strip, standard deviations of these readings, and
@@ -14,7 +16,7 @@ LEAST = 8  # samples in a strip
 SURE, FLAT, EXPLAINED = 6.0, 4.0, 6.0
 CHANCE = 1e-3  # that more orders seem to explain the readings between the extremes better
 SINGULAR = 1e12  # condition number of samples at too few phases
-PHASES, SPARE = 64, 6  # phases of a cycle that count as different, and those beyond the unknowns that must remain
+SPARE = 6  # different phases that must remain beyond those that the unknowns need
 # Width of a strip at each extreme, as a share of the span, and a share of the readings that no wave of a drive has in
 # each of both strips: a cosine has 0.09 and 0.14, and hardly any wave with three harmonics of up to 0.35 has more.
 FLAT_TOPS = ((0.02, 0.2), (0.05, 0.3))
