@@ -72,7 +72,7 @@ def next_impact(c, body, theta, state, limit, after, now):
 
     Fills the state `after` it, and `now` there.
     """
-    reach, margin = math.hypot(body.half_length, body.half_height), corners.margins_of(c).gap
+    reach, margin = math.hypot(body.half_length, body.half_height), corners.margins_of(c, body).gap
     bound = c.gravity + c.bounds.lift + reach * state[SPIN] * state[SPIN]
     tau = 0.0
     for _ in range(MAX_SEARCH):
@@ -241,7 +241,7 @@ def go_on(c, body, theta, flying, kind, corner, state, now):
     touching, speed, slips = True, 0.0, -1
     if flying or kind == TOUCH:
         corners.locate(c, body, theta, state, now)
-        touching, speed = touch(now, corners.margins_of(c).gap)
+        touching, speed = touch(now, corners.margins_of(c, body).gap)
     elif kind == PULL:
         now[PULLED, corner] = 1.0 - now[PULLED, corner]
     elif now[MODE, corner] == STICK:
@@ -268,7 +268,7 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
         last time only
     distance : m, at which a centre arrives; infinite without a track
     results : zeros of the shape (n, 9), filled with the columns above
-    workspace : arrays to work in, of the shapes (4, 6), (7, 6) and (12, 4); the caller holds them
+    workspace : arrays to work in, of the shapes (4, 6), (7, 6) and (14, 4); the caller holds them
     """
     parameters, bodies, times, samples, results = no_refcount((parameters, bodies, times, samples, results))
     (states, stages, now) = no_refcount(workspace)

@@ -7,11 +7,11 @@ its contact force N and friction f, both per mass of the block, and the moment o
 
 The slip velocity u = ẋ_s - ẋ of a corner then changes with the rate b - Σ_j (1 + o_z o_zj m/I) f_j, in which b contains
 everything but friction. A corner that slips has the friction μN sign(u). The frictions of those that stick follow from
-u̇ = 0. Because the contact forces depend on the state alone, these linear equations always have a solution.
+u̇ = 0, see `hold`. The contact forces depend on the state alone, so that these equations are linear.
 
 A state is an array: x (m), vx (m/s), z (m), vz (m/s) of the centre, angle (rad; positive where the front is raised),
 spin (rad/s).
-`now` is an array of shape (12, 4) with what is known of each corner at one moment.
+`now` is an array of shape (14, 4) with what is known of each corner at one moment.
 """
 
 import math
@@ -26,17 +26,17 @@ CORNERS = 4
 # Rows of `now`: offset from the centre (m), gap (m) and its rate (m/s), slip velocity (m/s); contact force and friction
 # per mass (m/s²); one of the modes below; the contact force that spring and damper would have, and whether it is
 # negative, which matters for `frictionless` and `clip`; whether a corner may stick (-1: it slips), and its best mode so
-# far, in `choose_modes`.
-OX, OZ, GAP, RATE, SLIP, FORCE, RUB, MODE, WHOLE, PULLED, MAY_STICK, BEST = range(12)
-ROWS = 12
+# far, in `choose_modes`; the weight and the rate w and b of `hold`.
+OX, OZ, GAP, RATE, SLIP, FORCE, RUB, MODE, WHOLE, PULLED, MAY_STICK, BEST, WEIGHT, NEED = range(14)
+ROWS = 14
 # What a corner does. With one of the last two it slips, and friction pushes it forward or backward.
 FREE, STICK, FORWARD, BACKWARD = 0.0, 1.0, 2.0, 3.0
-MOST_STICKING = 2  # the equations of more corners depend on each other
-# Share of the friction equations' diagonal that is added to it. Two corners at equal heights have dependent equations;
-# with this they share the friction as the contact force, so that both reach the limit of static friction together. It
-# is large enough that neither the rounding of their heights nor a slow rotation decides.
+# The inverse of the weights in `hold`, for equal contact forces. Corners at equal heights share the friction as the
+# contact force, so that all reach the limit of static friction together. It is large enough that neither the rounding
+# of their heights nor a slow rotation decides.
 REGULAR = 1e-5
 LEAST_SHARE = 1e-6  # of the friction, for a corner that hardly touches the plate
+ROUNDING = 1e-15  # share of the height of a centre by which rounding can change a gap
 # The smallest size that counts as a step over a limit: of a gap (m), a slip velocity (m/s) and a force per mass (m/s²).
 Margins = namedtuple("Margins", "gap slip force")
 # Half of the length and of the height (m), and the moment of inertia per mass (m²).
@@ -44,10 +44,12 @@ Body = namedtuple("Body", "half_length half_height inertia")
 
 
 @compiled_inline
-def margins_of(c):
+def margins_of(c, body):
     """The Margins at the tolerance of a conveyor, given by its contact.Constants."""
     speed = c.scale_v + (c.a_x + c.gravity) / c.omega
-    return Margins(c.tolerance * c.scale_w * c.scale_w, 0.1 * c.tolerance * speed, c.tolerance * c.gravity)
+    reach = math.hypot(body.half_length, body.half_height)
+    gap = max(c.tolerance * c.scale_w * c.scale_w, ROUNDING * (reach + c.bounds.height))
+    return Margins(gap, 0.1 * c.tolerance * speed, c.tolerance * c.gravity)
 
 
 @compiled_inline
@@ -82,42 +84,66 @@ def push(c, now):
 
 
 @compiled_inline
+def hold(body, state, now, free, turn):
+    """Fill the frictions of the corners that stick.
+
+    With the rate b of its slip velocity without friction, each corner has the friction f = w (b - F - o_z M). F is the
+    sum of these frictions and M that of their moments over the moment of inertia. The weights w are large, so that
+    nearly nothing of b is left. They stand in for the elasticity of the block, which decides how corners whose
+    equations depend on each other share the friction. Cramer's rule is written in pairs of corners, without
+    cancellation, and leaves out the 1 of the determinant: at equal heights the sum of the frictions is exact.
+
+    free, turn : rates (m/s², 1/s²) of the slip velocity of the centre and of the spin without these frictions
+    """
+    sticking, load, least, diagonal = 0, 0.0, math.inf, 0.0
+    for i in range(CORNERS):
+        if now[MODE, i] == STICK:
+            sticking += 1
+            load += now[FORCE, i]
+            least = min(least, now[FORCE, i])
+            diagonal += 1.0 + now[OZ, i] * now[OZ, i] / body.inertia
+    if sticking == 0:
+        return
+    for i in range(CORNERS):
+        now[WEIGHT, i] = 0.0
+        now[NEED, i] = free + state[SPIN] * state[SPIN] * now[OX, i] + now[OZ, i] * turn
+        if now[MODE, i] == STICK:
+            share = max(now[FORCE, i] / load, LEAST_SHARE) if least > 0.0 else 1.0 / sticking
+            now[WEIGHT, i] = share * sticking / (REGULAR * diagonal)
+    determinant = 0.0
+    for i in range(CORNERS):
+        z, need = now[OZ, i], now[NEED, i]
+        determinant += now[WEIGHT, i] * (1.0 + z * z / body.inertia)
+        total = need
+        for j in range(CORNERS):
+            zj, needed = now[OZ, j], now[NEED, j]
+            total += now[WEIGHT, j] * (need - needed + zj * (zj * need - z * needed) / body.inertia)
+            for k in range(j):
+                apart = zj - now[OZ, k]
+                both = now[WEIGHT, j] * now[WEIGHT, k] * apart / body.inertia
+                total += both * (need * apart - needed * (z - now[OZ, k]) + now[NEED, k] * (z - zj))
+                if i == 0:
+                    determinant += both * apart
+        if now[MODE, i] == STICK:
+            now[RUB, i] = now[WEIGHT, i] * total
+    for i in range(CORNERS):
+        if now[MODE, i] == STICK:
+            now[RUB, i] /= determinant
+
+
+@compiled_inline
 def rub(c, body, pull, state, now):
     """Fill the frictions of all corners; returns the sum of the moments of the contact forces per mass (m²/s²)."""
     moment = slide = lever = 0.0
-    first = second = -1
     for i in range(CORNERS):
         moment += now[OX, i] * now[FORCE, i]
         now[RUB, i] = 0.0
-        if now[MODE, i] == STICK:
-            first, second = (i, first) if first < 0 else (first, i)
-            continue
-        if now[MODE, i] != FREE and not (now[PULLED, i] and c.tension != model.TENSION_ALLOW):
+        slips = now[MODE, i] != FREE and now[MODE, i] != STICK
+        if slips and not (now[PULLED, i] and c.tension != model.TENSION_ALLOW):
             now[RUB, i] = c.friction * now[FORCE, i] * (1.0 if now[MODE, i] == FORWARD else -1.0)
             slide += now[RUB, i]
             lever += now[OZ, i] * now[RUB, i]
-    if first >= 0:
-        spin2 = state[SPIN] * state[SPIN]
-        a = now[OZ, first]
-        at_first = pull + spin2 * now[OX, first] - slide + a * (moment - lever) / body.inertia
-        if second < 0:
-            now[RUB, first] = at_first / (1.0 + a * a / body.inertia)
-        else:
-            b = now[OZ, second]
-            at_second = pull + spin2 * now[OX, second] - slide + b * (moment - lever) / body.inertia
-            both = 1.0 + a * b / body.inertia
-            of_first, of_second = 1.0 + a * a / body.inertia, 1.0 + b * b / body.inertia
-            share = 0.5
-            if min(now[FORCE, first], now[FORCE, second]) > 0.0:
-                share = now[FORCE, first] / (now[FORCE, first] + now[FORCE, second])
-                share = min(max(share, LEAST_SHARE), 1.0 - LEAST_SHARE)
-            extra = REGULAR * (of_first + of_second)
-            on_first, on_second = 0.5 * extra / share, 0.5 * extra / (1.0 - share)
-            # The determinant without cancellation, and without a product of both: at equal heights, the sum of the
-            # frictions is exact.
-            determinant = (a - b) * (a - b) / body.inertia + on_first * of_second + on_second * of_first
-            now[RUB, first] = (at_first * (of_second + on_second) - at_second * both) / determinant
-            now[RUB, second] = (at_second * (of_first + on_first) - at_first * both) / determinant
+    hold(body, state, now, pull - slide, (moment - lever) / body.inertia)
     return moment
 
 
@@ -166,7 +192,7 @@ def choose_modes(c, body, theta, state, now, slips):
     """
     pull = locate(c, body, theta, state, now)
     push(c, now)
-    margin = margins_of(c).slip
+    margin = margins_of(c, body).slip
     combinations = 1
     for i in range(CORNERS):
         now[MAY_STICK, i] = -1.0
@@ -182,14 +208,13 @@ def choose_modes(c, body, theta, state, now, slips):
     least = math.inf
     ahead, behind = (FORWARD, BACKWARD) if pull >= 0.0 else (BACKWARD, FORWARD)
     for combination in range(combinations):
-        digits, sticking, allowed = combination, 0, True
+        digits, allowed = combination, True
         for i in range(CORNERS):
             if now[MAY_STICK, i] >= 0.0:
                 digit, digits = digits % 3, digits // 3
                 now[MODE, i] = STICK if digit == 0 else (ahead if digit == 1 else behind)
-                sticking += digit == 0
                 allowed = allowed and not (digit == 0 and now[MAY_STICK, i] == 0.0)
-        if not allowed or sticking > MOST_STICKING:
+        if not allowed:
             continue
         worst = violation(c, body, pull, state, now)
         if worst < least:

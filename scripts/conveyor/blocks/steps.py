@@ -120,7 +120,7 @@ def first_event(c, body, theta, state, length, stages, after, now, between):
 
     now : as `take_step` leaves it; between : an array of the shape of a state
     """
-    margins, rates = corners.margins_of(c), np.empty(STATE)
+    margins, rates = corners.margins_of(c, body), np.empty(STATE)
     share, first_kind, corner = 1.0, NONE, -1
     place = found = 0
     while place < CORNERS * NONE:

@@ -362,6 +362,8 @@ SIZES = st.floats(math.log(1e-4), math.log(0.1)).map(math.exp)
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**32 - 1), SIZES, SIZES, st.floats(-1.5, 1.5))
 @example(2240550, math.exp(-8.0), math.exp(-8.0), 0.0)  # the times of its last piece add up to less than its duration
+@example(1, math.exp(-4.0), math.exp(-8.0), 0.0)  # all four corners stick
+@example(543841560, 0.049787068367863944, 0.005983008510498413, 0.0)  # rounding of the gaps is above the tolerance
 def test_random_blocks_do_not_fall_through_the_plate(seed, length, height, tilt):
     conveyor, _ = unpack(tilted(around_the_paper(1, seed), seed)[0])
     block, begin = Block(length, height), process_time()
