@@ -12,6 +12,7 @@ times as long.
 import math
 
 from ..solver import contact, plate
+from ..solver.arrivals import furthest_way, time_of_passage
 from ..solver.flight import time_of_fall
 from ..solver.jit import compiled, compiled_entry, compiled_inline, copy, no_refcount
 from ..solver.model import VZ0, Z0
@@ -295,16 +296,26 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
                 if math.isnan(lapse):
                     code = IMPACT_LOST
                     break
-                result[AIRTIME] += max(min(t + lapse - since[i], lapse), 0.0)
             else:
-                given = theta, state, end - t, length, known
+                # A step ends where statistics begin, so that they include the force there.
+                given = theta, state, (since[i] if t < since[i] else end) - t, length, known
                 code, lapse, kind, corner, length, tried = press(c, body, *given, stages, after, between, now)
                 result[STEPS] += tried
                 code = TOO_STIFF if result[STEPS] > cycles * MAX_STEPS else code
                 if code != OK:
                     break
+            course = state[VX], c.downhill if flying else 0.0, lapse, after[X] - state[X]
+            furthest = max(furthest, after[X], state[X] + furthest_way(*course))
+            tau = time_of_passage(distance - state[X], *course)
+            if not math.isnan(tau):
+                result[ARRIVAL] = t + tau
+                if flying:  # the run ends there
+                    lapse = tau
+                    fly(state, c.gravity, c.downhill, lapse, after)
+            if flying:
+                result[AIRTIME] += max(min(t + lapse - since[i], lapse), 0.0)
             result[TILT] = max(result[TILT], largest_tilt(state, after, lapse))
-            # Samples and arrivals in this piece; at the end of the run, all that is left.
+            # Samples in this piece; at the end of the run, all that is left.
             while result[SAMPLED] < times.shape[1]:
                 place = int(result[SAMPLED])
                 if times[i, place] > t + lapse and lapse < end - t:
@@ -313,7 +324,6 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
                 copy(samples[i, place], between)
                 samples[i, place, Z] -= body.half_height
                 result[SAMPLED] += 1.0
-            furthest = max(furthest, after[X])
             if t + lapse > due:
                 move(c, flying, state, lapse, stages, after, due - t, between)
                 # Airtime repeats itself only where it counts during the whole block.
@@ -329,8 +339,6 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
                     between[X] += advance
                 copy(before, between)
                 airtime, due = result[AIRTIME], due + (skipped + 1.0) * block
-            if after[X] >= distance:
-                result[ARRIVAL] = t + (distance - state[X]) / (after[X] - state[X]) * lapse
             t = end if lapse >= end - t else t + lapse
             theta = (theta + c.omega * lapse) % TURN
             copy(state, after)
@@ -338,7 +346,7 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
                 code = NOT_FINITE
                 break
             # Ctrl-C sets the times to zero.
-            if t >= times[i, -1] or state[X] >= distance:
+            if t >= times[i, -1] or not math.isnan(result[ARRIVAL]):
                 break
             if not flying:
                 if t >= since[i]:

@@ -89,8 +89,9 @@ def hold(body, state, now, free, turn):
 
     With the rate b of its slip velocity without friction, each corner has the friction f = w (b - F - o_z M). F is the
     sum of these frictions and M that of their moments over the moment of inertia. The weights w are large, so that
-    nearly nothing of b is left. They stand in for the elasticity of the block, which decides how corners whose
-    equations depend on each other share the friction. Cramer's rule is written in pairs of corners, without
+    hardly anything of b is left. They stand in for the elasticity of the block: corners whose heights differ by less
+    than about a thousandth of its length share the friction as their contact forces, and slip against each other by
+    this difference times the spin. In a rigid block the difference, however small, would decide. Cramer's rule is written in pairs of corners, without
     cancellation, and leaves out the 1 of the determinant: at equal heights the sum of the frictions is exact.
 
     free, turn : rates (m/s², 1/s²) of the slip velocity of the centre and of the spin without these frictions

@@ -9,9 +9,10 @@ import math
 from collections import namedtuple
 
 from .horizontal import Horizontal
-from .jit import compiled_into_callers
+from .jit import compiled_inline, compiled_into_callers
 from .pieces import clock_at
 from .record import ARRIVED, next_time
+from .vertical import FLIGHT
 
 # When a motion repeats itself: cycles of a block, and the largest difference after a block, as a share of the plate's
 # largest speed. On a track, blocks are whole periods of motions with the periods 1 to 6.
@@ -27,19 +28,47 @@ Block = namedtuple("Block", "cycle t w v vx x furthest")
 FIRST_BLOCK = Block(0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-@compiled_into_callers
-def record_arrivals(record, block, step, x_begin, x_end):
-    """Record the arrivals in a record.Step between two positions along the track (m); the Block with the furthest one.
+@compiled_inline
+def time_of_passage(ahead, vx, downhill, duration, advance):
+    """Time (s) after which a part has gone the distance `ahead` > 0 (m) for the first time, NaN if it has not.
 
-    A flight is uniform along the track, and a contact step is short.
+    vx : at the beginning, m/s
+    downhill : deceleration in a flight, m/s²; 0 on a level track, and in a contact step, which is short
+    duration, advance : of the flight or the step, s, and the distance that the part goes in it, m
     """
+    if downhill == 0.0:
+        return duration * ahead / advance if advance >= ahead else math.nan
+    square = vx * vx - 2.0 * downhill * ahead
+    speed = vx + math.sqrt(square) if square >= 0.0 else 0.0
+    tau = 2.0 * ahead / speed if speed > 0.0 else math.inf  # the first root, without cancellation
+    return min(tau, duration) if tau <= duration or advance >= ahead else math.nan
+
+
+@compiled_inline
+def furthest_way(vx, downhill, duration, advance):
+    """The largest distance (m) that a part goes in a flight or a step; arguments as in `time_of_passage`."""
+    turns = 0.0 < vx < downhill * duration
+    return 0.5 * vx * vx / downhill if turns else advance
+
+
+@compiled_into_callers
+def record_arrivals(c, record, block, step, horizontal, x_end):
+    """Record the arrivals in a record.Step that begins with a Horizontal motion and ends at x_end (m) along the track.
+
+    Returns the Block with the furthest position.
+    """
+    downhill = c.downhill if step.piece.kind == FLIGHT else 0.0
+    x, vx, duration, advance = horizontal.x, horizontal.vx, step.piece.duration, x_end - horizontal.x
     arrived = int(record.results[ARRIVED])
-    while arrived < record.arrivals.size and x_end >= record.distances[arrived]:
-        tau = step.piece.duration * (record.distances[arrived] - x_begin) / (x_end - x_begin)
+    while arrived < record.arrivals.size:
+        tau = time_of_passage(record.distances[arrived] - x, vx, downhill, duration, advance)
+        if math.isnan(tau):
+            break
         record.arrivals[arrived] = step.begin + tau
         arrived += 1
     record.results[ARRIVED] = arrived
-    return Block(block.cycle, block.t, block.w, block.v, block.vx, block.x, max(block.furthest, x_end))
+    furthest = max(block.furthest, x_end, x + furthest_way(vx, downhill, duration, advance))
+    return Block(block.cycle, block.t, block.w, block.v, block.vx, block.x, furthest)
 
 
 @compiled_into_callers

@@ -121,12 +121,12 @@ def follow(parameters, vx0, options, records, distances, series):
                 break
             step = Step(series, clock.at, motion, piece, clock.begin + motion.t)
             count_piece(c, step, record)
-            x = horizontal.x
+            before = horizontal
             horizontal, status = follow_horizontal(c, step, horizontal, feeding, record)
             if status != OK or is_sampled(record):
                 break
             record_end(record, step, after)
-            block = record_arrivals(record, block, step, x, horizontal.x)
+            block = record_arrivals(c, record, block, step, before, horizontal.x)
             if has_arrived(record):
                 break
             motion, clock = pieces.next_cycle(c, next_clock, after, piece)
