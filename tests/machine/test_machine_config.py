@@ -27,6 +27,14 @@ WRONG = [
         "model.static_friction = 0.03 leaves no friction to search, because calibration.ranges.friction begins at 0.04",
     ),
     (
+        {
+            "prefix": "mine",
+            "contact": {"restitution": 0.8},
+            "calibration": {"measurements": str(ROOT / "config/examples/measured.csv")},
+        },
+        "calibration.parameters has damping, which the section contact gives; take it out of the parameters",
+    ),
+    (
         {"clean_drive": {"shares": [0.02, 0.1]}},
         "clean_drive.shares = [0.02, 0.1] lacks 0.05, the share of the statement on chaos; add it",
     ),

@@ -91,8 +91,10 @@ def hold(body, state, now, free, turn):
     sum of these frictions and M that of their moments over the moment of inertia. The weights w are large, so that
     hardly anything of b is left. They stand in for the elasticity of the block: corners whose heights differ by less
     than about a thousandth of its length share the friction as their contact forces, and slip against each other by
-    this difference times the spin. In a rigid block the difference, however small, would decide. Cramer's rule is written in pairs of corners, without
-    cancellation, and leaves out the 1 of the determinant: at equal heights the sum of the frictions is exact.
+    this difference times the spin. In a rigid block the difference, however small, would decide.
+
+    Cramer's rule is written in pairs of corners, without cancellation, and leaves out the 1 of the determinant: at
+    equal heights the sum of the frictions is exact.
 
     free, turn : rates (m/s², 1/s²) of the slip velocity of the centre and of the spin without these frictions
     """

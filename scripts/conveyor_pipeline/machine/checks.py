@@ -8,6 +8,7 @@ from conveyor_pipeline.common import csv_table
 from conveyor_pipeline.common.axes import count_values, ends
 from conveyor_pipeline.common.settings import check_span
 from conveyor_pipeline.config.checks import LARGEST_TABLE
+from conveyor_pipeline.config.derived import origins_of
 from conveyor_pipeline.machine.calibration import measurements
 from conveyor_pipeline.machine.excitation.limits import STATEMENT
 from conveyor_pipeline.machine.operating.settings import transit_axis
@@ -78,6 +79,13 @@ def calibration(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         yield "parts.calibrated needs measurements; name the config with calibration.measurements as well"
     if (path := own.get("measurements")) is None:
         return
+    origins = origins_of(config)
+    for name in own["parameters"]:
+        if name in origins:
+            yield (
+                f"calibration.parameters has {name}, which the section {origins[name]} gives; take it out of the "
+                f"parameters, or give model.{name} in place of the section"
+            )
     static, lowest = config["model"].get("static_friction"), own["ranges"]["friction"][0]
     if "friction" in own["parameters"] and static is not None and static <= lowest:
         yield (

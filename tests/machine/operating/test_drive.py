@@ -222,6 +222,9 @@ def test_a_seed_that_finds_a_design_late_or_never_is_named(made):
     assert "inf" not in page
     page = drive_page.make(TEMPLATE, made["drive_front"], growing(0.1, 0.5, 0.9, 1.0))
     assert "still zero" not in page and "has at least 100 % of the hypervolume" in page
+    stuck = pd.concat([growing(0.1, 1.0, 1.0, 1.0), growing(0.1, 0.19, 0.19, 0.19).assign(seed=2)])
+    page = drive_page.make(TEMPLATE, made["drive_front"], stuck)
+    assert "**The search has not settled.** A seed has found less than 80 % of the front." in page
     page = drive_page.make(TEMPLATE, made["drive_front"], growing(0.0, 0.0, 0.0, 0.0))
     assert "**Whether the search has settled is not known**" in page and "still zero" not in page
 

@@ -350,6 +350,18 @@ def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
     return regimes.intervals_of(regimes.summarize_amplitudes(table), table)
 
 
+def test_a_motion_that_is_faster_than_the_plate_is_pointed_out(refined):
+    """The plate moves along the track with up to 0.062 m/s at 20 m/s²."""
+    assert "faster than the plate" not in page_of(refined, advised())
+    fast = refined.assign(mean_velocity=2.0)
+    fast.attrs = refined.attrs
+    assert "**At 9 of these amplitudes, from 20 m/s² on, the fastest motion is faster than the plate" in page_of(
+        fast[fast.acceleration.isin(np.linspace(20.0, 60.0, 9))], advised()
+    )
+    fast.attrs = refined.attrs | {"model": refined.attrs["model"] | {"tension": "clip"}}
+    assert "faster than the plate" not in page_of(fast, advised())
+
+
 def test_no_amplitude_is_recommended_where_parts_move_back(refined):
     rows, *others = advised()
     back = rows.assign(velocity_95=-0.01)
@@ -743,7 +755,8 @@ def test_a_table_without_known_amplitudes_gives_no_advice(refined):
     rows, advice_rows, changes = advised()
     advice_rows = advice_rows.iloc[:0]
     advice_rows.attrs = {"margin": 0.01, "changes": {}}
-    page = page_of(alone, [rows, advice_rows, changes.iloc[:0]])
+    unknown = rows.assign(velocity_95=np.nan)
+    page = page_of(alone, [unknown, advice_rows, changes.iloc[:0]])
     assert "No part could be followed at any amplitude, so there is no advice." in page
     assert "No initial condition is known to end in chaos." in page
     assert "- A state or a velocity is not known: 20.0 m/s².\n" in page

@@ -245,6 +245,21 @@ def test_a_push_makes_riding_parts_jump(made):
     assert pushes.made_jump[0.0] == 0.0 < pushes.made_jump[0.3]
 
 
+def test_velocities_that_differ_count_unless_parts_slide_away(made):
+    """All parts jump, whatever the way, but those that fall onto the running plate are faster."""
+    advice, tables = made
+    calm, motions = tables["start"].assign(jumping=1.0, velocity_50=0.2), tables["start_motions"]
+    velocities = np.where(motions.parts == start.FED, 0.27, 0.2)
+    tables = tables | {"start": calm, "start_motions": motions.assign(jumping=1.0, velocity_50=velocities)}
+    calm.attrs = tables["pushes"].attrs
+    sentence = 'the median has 27 cm/s after "parts fall onto the running plate", 20 cm/s after "'
+    page = start_page.make(TEMPLATE, advice, *(tables[name] for name in start.TABLES))
+    assert sentence in page and "does not matter" not in page
+    calm.attrs = calm.attrs | {"model": calm.attrs["model"] | {"inclination": -0.3, "friction": 0.2}}
+    page = start_page.make(TEMPLATE, advice, *(tables[name] for name in start.TABLES))
+    assert sentence not in page and "The track is too steep" in page
+
+
 def test_differences_within_the_sampling_error_do_not_count():
     ways = [{"jumping": 0.5}, {"jumping": 0.58}, {"jumping": None}]
     assert not start_page.depends(ways, 256)

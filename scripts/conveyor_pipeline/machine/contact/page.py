@@ -75,6 +75,7 @@ def make(template: str, variants: pd.DataFrame, advice: pd.DataFrame) -> str:
             for place, speed in sorted(places, key=lambda one: -one[1])
         ],
         "by_aim": by_aim,
+        "has_errors": variants.velocity_05_stderr.notna().any(),
         "aims": aims,
         "has_elastomer": any(str(own.get(name)).startswith(ELASTOMERS) for name in NAMED),
         "factors": {"radius": RADIUS, "stated": STATED, "elastomer": UNCERTAINTY},

@@ -58,30 +58,29 @@ def plot(*, shares: pd.DataFrame, regimes: pd.DataFrame, advice: pd.DataFrame) -
     amplitudes = np.sort(shares.acceleration.unique())
 
     best = summarize_amplitudes(shares)
+    alone = {"marker": "o"} if len(amplitudes) == 1 else {}
     if best.best.isna().all():
         style.say(share, "the fastest motion is not known at any amplitude")
     else:
         velocities.fill_between(best.acceleration, best.slowest, best.best, color="0.88", linewidth=0.0)
-        velocities.plot(best.acceleration, best.best, color="black", label="fastest motion")
+        velocities.plot(best.acceleration, best.best, color="black", label="fastest motion", **alone)
         look = {"color": "black", "linewidth": 0.8, "linestyle": (0, (3, 2))}
-        velocities.plot(best.acceleration, best["mean"], label="mean over all initial conditions", **look)
+        velocities.plot(best.acceleration, best["mean"], label="mean over all initial conditions", **look, **alone)
         velocities.plot(
-            best.acceleration, best.slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion"
+            best.acceleration, best.slowest, color="0.5", linewidth=0.8, linestyle=":", label="slowest motion", **alone
         )
-    velocities.plot(amplitudes, throw_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK)
+    velocities.plot(amplitudes, throw_velocity(amplitudes, **shares.attrs["model"]), **style.TEXTBOOK, **alone)
     velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     style.velocity_axis(velocities.yaxis)
 
     low, high = (100.0 * (best.best_share + side * best.stderr).clip(0.0, 1.0) for side in (-2.0, 2.0))
     share.fill_between(best.acceleration, low, high, color="0.75", linewidth=0.0, step="mid")
-    share.plot(best.acceleration, 100.0 * best.best_share, color="black", drawstyle="steps-mid")
+    share.plot(best.acceleration, 100.0 * best.best_share, color="black", drawstyle="steps-mid", **alone)
     share.set_ylim(0.0, 104.0)
     share.set_ylabel("share of the\nfastest motion in %")
     share.set_xlabel(style.AMPLITUDE)
     style.limit_x(share, amplitudes)
     mark_advice(velocities, advice)
-    if len(amplitudes) == 1:
-        style.say(velocities, "a single amplitude; give more for lines")
     figure.align_ylabels([velocities, share])
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     velocities.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=4)

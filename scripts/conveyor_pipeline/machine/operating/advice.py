@@ -13,7 +13,8 @@ import numpy as np
 import pandas as pd
 
 from conveyor import RANGES, throw_number
-from conveyor_pipeline.common import fields
+from conveyor.packing import plate_peaks
+from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.machine.operating.parts import population, with_calibration
 from conveyor_pipeline.machine.operating.populations import EVEN, FAST, PROBABILITIES, VARIED
 from conveyor_pipeline.machine.operating.transit import (
@@ -27,6 +28,7 @@ from conveyor_pipeline.machine.operating.transit import (
 RESAMPLES = 400  # of the parts, for the standard errors of changes
 KEPT = 0.9  # of the 5 % quantile at the advised amplitude, which a controller must keep
 HALVINGS = 6  # of the step between two amplitudes, to find how far the amplitude may be off
+STILL = 0.01  # of the largest velocity of the plate: slower parts do not count as parts that move forward
 ENOUGH = 0.5  # of the largest 5 % quantile, which an even amplitude must have
 AIM = fields.text("aim", f"{FAST}: largest 5 % quantile of the transit velocity, {EVEN}: least relative spread")
 TABLES = {
@@ -58,6 +60,12 @@ TABLES = {
         fields.number("widening_stderr", "1", "standard error of widening, from resamples of the parts"),
     ),
 }
+
+
+def moves_forward(transit: pd.DataFrame) -> bool:
+    """Whether more than 5 % of the parts move forward, and not only a little, at any amplitude."""
+    _, conveyors = grid.product({"acceleration": transit.acceleration.tolist()}, transit.attrs["model"])
+    return bool((transit.velocity_95 > STILL * plate_peaks(conveyors).vx).any())
 
 
 def best(scores: np.ndarray, worst_of: Callable[[int], float]) -> int | None:
@@ -246,7 +254,7 @@ def make(
     *,
     threads: int = 1,
 ) -> dict[str, dict]:
-    """The columns of the tables of advice and of changes.
+    """The columns of the tables of advice and of changes, without rows if no amplitude moves parts forward.
 
     samples, parameters : as in transit.make
     """
@@ -254,8 +262,9 @@ def make(
     rows = transit[transit.population == VARIED].reset_index(drop=True)
     amplitudes, unit = rows.acceleration.to_numpy(), throw_number(1.0, **followed["model"])
     places, around, at = recommend(rows, followed, (low, high), threads)
+    places = places if moves_forward(transit) else {}
     of_points = {}
-    if "body" in followed:
+    if "body" in followed and places:
         points = {name: value for name, value in followed.items() if name != "body"}
         of_points, *_ = recommend(measure(amplitudes, points, (VARIED,), threads=threads), points, (low, high), threads)
     advice, changes = [], []

@@ -12,7 +12,7 @@ from conveyor.packing import plate_peaks
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.steepness import is_frictionless
 from conveyor_pipeline.common.templates import render
-from conveyor_pipeline.machine.operating.advice import ENOUGH, EVEN, FAST, KEPT, neighbours
+from conveyor_pipeline.machine.operating.advice import ENOUGH, EVEN, FAST, KEPT, STILL, moves_forward, neighbours
 from conveyor_pipeline.machine.operating.populations import QUANTILES, differences
 from conveyor_pipeline.machine.operating.regimes import (
     BESIDE,
@@ -32,11 +32,11 @@ WORTH_CHANGING = 0.01  # relative change of velocity or spread from which a chan
 CERTAIN = 2.0  # standard errors that it must exceed, too
 MOST_CHANGES = 4  # that are named
 MANY_LATE = 0.5  # share of late parts that a page points out
-STILL = 0.01  # of the largest velocity of the plate: slower parts do not count as parts that move forward
 # The states of motion in the words of the trade.
 STATE_WORDS = {"first": "riding", "second": "jumping", "chaos": "chaos", "undecided": "undecided"}
 # What the force of a drive grows with, in words.
 FORCES = {"voltage²": "square of the voltage", "voltage": "voltage", "frequency²": "square of the frequency"}
+NORMAL = 1e-3  # share of the vibration along the track below which the plate moves normal to it only
 DECIMALS = 6  # of velocities in m/s: smaller ones are rounding errors
 
 
@@ -48,10 +48,16 @@ def stroke(acceleration: float, frequency: float) -> float:
     return 2.0 * acceleration / (2.0 * math.pi * frequency) ** 2
 
 
-def moves_forward(transit: pd.DataFrame) -> bool:
-    """Whether more than 5 % of the parts move forward, and not only a little, at any amplitude."""
-    _, conveyors = grid.product({"acceleration": transit.acceleration.tolist()}, transit.attrs["model"])
-    return bool((transit.velocity_95 > STILL * plate_peaks(conveyors).vx).any())
+def faster_than_plate(shares: pd.DataFrame) -> list[float]:
+    """The amplitudes (m/s²) at which a motion is faster than the plate ever moves, because the contact pulls.
+
+    Friction drives no part faster than the plate, and gravity does on a steep track only.
+    """
+    model, amplitudes = shares.attrs["model"], summarize_amplitudes(shares)
+    if model.get("tension", "allow") != "allow" or (shares.status == SLIDES_AWAY).any():
+        return []
+    _, conveyors = grid.product({"acceleration": amplitudes.acceleration.tolist()}, model)
+    return amplitudes.acceleration[(amplitudes.best > plate_peaks(conveyors).vx).to_numpy()].tolist()
 
 
 def summarize_regimes(rows: pd.DataFrame, shares: pd.DataFrame) -> dict:
@@ -163,7 +169,10 @@ def make(
         "remedies": remedies,
         "options": advice.attrs | ({"part_length": body["length"]} if body else {}),
         "body": body,
+        "followed": transit.velocity_95.notna().any(),
         "forward": moves_forward(transit),
+        "beyond": faster_than_plate(shares),
+        "is_normal": math.cos(transit.attrs["model"]["angle"]) < NORMAL,
         "still": STILL,
         "enough": ENOUGH,
         "kept": KEPT,

@@ -11,6 +11,7 @@ from conveyor_pipeline.machine.operating.drive import DRAWN, SEARCHED, SEEDS, SE
 from conveyor_pipeline.machine.operating.populations import ENDS, differences
 from conveyor_pipeline.machine.operating.regimes import RULE_OF_THREE
 
+LEAST_SEED = 0.8  # of the hypervolume of all seeds, below which a seed has not found the front
 CLOSE = 0.02  # of the width of bounds, or of a limit: a design that is closer lies at it
 
 
@@ -38,6 +39,8 @@ def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:
         "growth": growth,
         "is_late": np.isinf(growth),
         "worst_seed": last.hypervolume.min(),
+        "is_settled": growth <= SETTLED and last.hypervolume.min() >= LEAST_SEED,
+        "least_seed": LEAST_SEED,
         "flat": last.hypervolume.max() == 0.0,
     }
 

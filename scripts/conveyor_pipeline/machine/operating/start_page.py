@@ -7,6 +7,7 @@ import pandas as pd
 
 from conveyor import throw_number
 from conveyor_pipeline.common import grid
+from conveyor_pipeline.common.steepness import is_steep
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.advice import EVEN, FAST
 from conveyor_pipeline.machine.operating.chart import stroke
@@ -33,6 +34,7 @@ from conveyor_pipeline.machine.operating.start import LAST
 # Smallest difference of shares of jumping parts at which the way of switching on counts, besides two standard errors.
 DEPENDS = 0.05
 CERTAIN = 2.0
+FASTER = 0.1  # relative difference of median velocities at which it counts, too
 # What precedes the motion at an amplitude, in words.
 WAYS = {
     AT_REST: "switched on with the parts on the plate",
@@ -53,9 +55,14 @@ def ways_at(aim: str, start: pd.DataFrame, motions: pd.DataFrame) -> list[dict]:
 
 
 def extremes(ways: list[dict]) -> dict[str, dict]:
-    """The ways after which most and fewest parts jump, if any part could be followed."""
-    known = sorted((way for way in ways if way["jumping"] is not None), key=lambda way: way["jumping"])
-    return {"least": known[0], "most": known[-1]} if known else {}
+    """The ways after which most and fewest parts jump, and those with the largest and the smallest median velocity, if
+    any part could be followed."""
+    known = [way for way in ways if way["jumping"] is not None]
+    found = {}
+    for names, key in ((("least", "most"), "jumping"), (("slowest", "fastest"), "velocity_50")):
+        ordered = sorted(known, key=lambda way: way[key])
+        found |= dict(zip(names, (ordered[0], ordered[-1]), strict=True)) if known else {}
+    return found
 
 
 def depends(ways: list[dict], parts: int) -> bool:
@@ -64,6 +71,12 @@ def depends(ways: list[dict], parts: int) -> bool:
     low, high = min(shares, default=0.0), max(shares, default=0.0)
     error = math.sqrt((low * (1.0 - low) + high * (1.0 - high)) / parts)
     return high - low > max(DEPENDS, CERTAIN * error)
+
+
+def is_faster(found: dict[str, dict]) -> bool:
+    """Whether the medians of `extremes` differ by more than FASTER."""
+    low, high = (found[name]["velocity_50"] for name in ("slowest", "fastest")) if found else (0.0, 0.0)
+    return high - low > FASTER * max(abs(low), abs(high))
 
 
 def make(
@@ -81,8 +94,10 @@ def make(
     for row in advice.to_dict("records"):
         ways = ways_at(row["aim"], start, start_motions)
         own = pushes[pushes.aim == row["aim"]].replace({np.nan: None}).to_dict("records")
-        about = {key: row[key] for key in ("aim", "acceleration")} | extremes(ways)
-        runs.append(about | {"ways": ways, "depends": depends(ways, settings["starts"]), "pushes": own})
+        found = extremes(ways)
+        about = {key: row[key] for key in ("aim", "acceleration")} | found
+        about |= {"depends": depends(ways, settings["starts"]), "is_faster": is_faster(found)}
+        runs.append(about | {"ways": ways, "pushes": own})
     if len(runs) == 2 and runs[0]["acceleration"] == runs[1]["acceleration"]:
         runs = [runs[0] | {"aim": f"{FAST} and {EVEN}"}]
     limits = {
@@ -104,6 +119,7 @@ def make(
         "varied": VARIED,
         "ends": ramp_ends(grid.axis_values("acceleration", settings["acceleration"])),
         "has_body": has_body,
+        "slides": is_steep(settings["model"]),
         "stroke_per_amplitude": stroke(1.0, settings["model"]["frequency"]),
         "throw_number_per_amplitude": throw_number(1.0, **settings["model"]),
         "failed": int(start_motions.failed.sum()),
