@@ -25,8 +25,9 @@ CLOCK = re.compile(
     r"(?: ?(?P<half>[AP]M))?(?:Z|[-+]\d{2}:?\d{2})?",
     re.IGNORECASE,
 )
-# A unit behind a name: Time (ms), accel [g], and in a line of its own: (s), m/s^2.
-UNIT = re.compile(r"\s*[(\[]([^()\[\]]*)[)\]]$")
+# A unit behind a name: Time (ms), accel [g], and in a line of its own: (s), m/s^2; and as in DIN 461: t/ms.
+UNIT = re.compile(r"\s*/?\s*[(\[<{]([^()\[\]<>{}]*)[)\]>}]$")
+RATIO = re.compile(r"([^/\s]+)\s*/\s*(\S+)")
 RESTART = 10.0  # intervals by which a time goes back where another run begins
 HOUR, DAY = 3600.0, 86_400.0  # s
 EXCEL_LINE = re.compile(r'"?sep=."?')
@@ -148,17 +149,19 @@ def separator_of(lines: Sequence[str]) -> str:
     return max(SEPARATORS, key=score)
 
 
-def name_and_unit(header: str) -> tuple[str, str]:
+def name_and_unit(header: str, units: Iterable[str]) -> tuple[str, str]:
     """The name of a column and its unit: `Time (ms)` is `Time` in `ms`."""
     name = header.strip().lstrip("#").strip()
+    if (ratio := RATIO.fullmatch(name)) and ratio[2] in units:
+        return ratio[1], ratio[2]
     unit = UNIT.search(name)
     return (name[: unit.start()].strip(), unit[1].strip()) if unit and unit.start() else (name, "")
 
 
 def is_unit_line(fields: list[str], units: Iterable[str]) -> bool:
-    """Whether the line below a header states units."""
-    given = [field for field in fields if field]
-    return bool(given) and all(UNIT.fullmatch(field) or field in units for field in given)
+    """Whether a line beside a header states units: none of its texts is a value, and at least two are known."""
+    known = sum(bool(UNIT.fullmatch(field) or field in units) for field in fields)
+    return known == len(list(filter(None, fields))) > 0 or (known > 1 and not any(map(is_value, fields)))
 
 
 def find_header(lines: Sequence[tuple[int, str]], separator: str, is_known: Callable[[str], bool]) -> int | None:
@@ -221,11 +224,15 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
             line = line.lstrip("# ")
             # Where spaces separate columns, a unit behind one belongs to the name before it.
             line = re.sub(r"(?<=\w) +(?=[(\[])", "", line) if separator == " " else line
-            names, units_of = map(list, zip(*map(name_and_unit, split(line, separator)), strict=True))
-        rows = [(number, line) for number, line in content[place + 1 :] if not line.lstrip('"').startswith("#")]
-        if rows and is_unit_line(stated := split(rows[0][1], separator), units):
+            named = [name_and_unit(field, units) for field in split(line, separator)]
+            names, units_of = map(list, zip(*named, strict=True))
+        beside = [content[at] for at in (place - 1, place + 1) if 0 <= at < len(content)] if place >= 0 else []
+        stating = [one for one in beside if is_unit_line(split(one[1].lstrip("# "), separator), units)]
+        for _, line in stating:
+            stated = split(line.lstrip("# "), separator)
             units_of = [UNIT.sub(r"\1", one) or own for one, own in zip([*stated, *names], units_of, strict=False)]
-            rows = rows[1:]
+        following = [one for one in content[place + 1 :] if one not in stating]
+        rows = [(number, line) for number, line in following if not line.lstrip('"').startswith("#")]
         widths = np.array([widths_of(line, separator) for _, line in rows], dtype=np.int64)
     except csv.Error as error:
         raise TableError([f"{path}: is not CSV ({error}); export the table as CSV"]) from error
@@ -236,6 +243,7 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
         ends_empty = widths[row] > len(names) and not any(split(rows[row][1], separator)[len(names) :])
         if not ends_empty and len(faults) < MOST_FAULTS:
             remedy = "leave no field out, and separate columns by semicolons if numbers have commas"
+            remedy = f"{DELETE}, the last one, if it is incomplete" if row == len(rows) - 1 else remedy
             faults.append(f"{path}:{lines[row]}: has {widths[row]} values for {len(names)} columns; {remedy}")
     if faults:
         raise TableError(faults)

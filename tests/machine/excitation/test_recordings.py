@@ -340,7 +340,11 @@ def test_few_lost_samples_between_rounded_times_make_no_harmonics(rate, digits, 
     ("columns", "message"),
     [
         ("along normal lateral", "the axis normal to the track is ay; set excitation.columns: {time: t, x: ax, z: ay}"),
-        ("lateral along normal", "times as much in the column ay, which is not used"),
+        ("lateral along normal", "in the column ay, which is not used, with"),
+        (
+            "turned across normal",
+            "the sensor may be turned about its normal by 30°, so that the amplitude would be too",
+        ),
         ("along lateral normal", None),
     ],
 )
@@ -349,6 +353,7 @@ def test_a_third_axis_tells_which_axes_are_right(columns, message):
     time, (along, normal) = drive.record()
     lateral = 0.02 * (normal - normal.mean()) + np.random.default_rng(1).normal(0.05, 0.1, len(time))
     axes = {"along": along, "normal": normal, "lateral": lateral}
+    axes |= {"turned": 0.5 * 3.0**0.5 * along, "across": lateral - 0.5 * along}
     rows = np.array([time, *(axes[name] for name in columns.split())]).T
     text = "\n".join(["t,ax,ay,az", *(",".join(f"{value:.6f}" for value in row) for row in rows), ""])
     if message:
@@ -738,8 +743,10 @@ def test_many_whole_numbers_with_and_without_commas_have_thousands():
 def test_a_rate_that_contradicts_the_times_of_the_file_is_refused(header, unit):
     text = text_of(TIMES / unit, READINGS, header=f"{header},x,z")
     rate = (len(TIMES) - 1) / np.ptp(TIMES)
-    found = check(text, {**PURE.settings, "rate": 1.02 * rate})
+    found = check(text, {**PURE.settings, "rate": 1.005 * rate})
     assert found.sampling == "rate"
+    with pytest.raises(TableError, match="correct the rate"):
+        check(text, {**PURE.settings, "rate": 1.05 * rate})
     with pytest.raises(TableError) as error:
         check(text, {**PURE.settings, "rate": 0.5 * rate})
     assert f"with {rate:.4g} samples per second, but excitation.rate is {0.5 * rate:g}" in str(error.value)
@@ -795,3 +802,78 @@ def test_a_frequency_that_contradicts_the_overlay_is_refused(tmp_path):
 def test_a_table_knows_its_lines():
     text = "\n# note\n" + text_of(TIMES, READINGS)
     assert table_of(text, PURE.settings).lines[:2].tolist() == [4, 5]
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "time,x,z\n#s,g,g",
+        "#s,g,g\ntime,x,z",
+        "time,x,z\ns,g,g",
+        "time,x,z\nSeconds,G,G",
+        "t/s,x/g,z/g",
+        "t / s,x / g,z / g",
+        "time (s),x <g>,z {g}",
+        "time (Sec),x [G],z (g)",
+    ],
+)
+def test_the_unit_of_a_header_counts(header):
+    found = check(text_of(TIMES, READINGS / STANDARD_GRAVITY, header=header), {"mount": PURE.mount})
+    assert (found.unit, found.time_unit) == ("g", "s")
+    np.testing.assert_allclose(found.readings, READINGS, atol=1e-3)
+
+
+def test_a_unit_line_may_state_further_units():
+    rows = text_of(TIMES, READINGS / STANDARD_GRAVITY, header="").splitlines()[1:]
+    text = "\n".join(["time,x,z,temperature", "s,g,g,°C", *(f"{row},25" for row in rows), ""])
+    assert check(text, {"mount": PURE.mount}).unit == "g"
+
+
+def test_one_column_for_both_axes_is_refused():
+    fault = fault_of(text_of(TIMES, READINGS), columns={"time": "time", "x": "x", "z": "x"})
+    assert "has one column 'x' for both x and z in excitation.columns" in fault
+
+
+def test_a_last_line_without_its_end_is_named():
+    text = text_of(TIMES, READINGS).rstrip("\n").rpartition(",")[0]
+    assert "delete the line, the last one, if it is incomplete" in fault_of(text)
+
+
+def test_a_recording_without_noise_is_no_error():
+    time = np.arange(800) / 2000.0
+    wave = np.cos(2.0 * np.pi * 50.0 * time)
+    text = "\n".join(
+        [
+            "time,along,normal",
+            *(f"{t!r},{36 * w!r},{8 * w + 9.81!r}" for t, w in zip(time.tolist(), wave.tolist(), strict=True)),
+            "",
+        ]
+    )
+    assert check(text, {"mount": 0.0}).unit == "m/s²"
+
+
+@pytest.mark.parametrize(("rate", "every"), [(1000.0, 10), (800.0, 8), (3200.0, 16), (3200.0, 64)])
+@pytest.mark.parametrize("second", [0.0, 0.1])
+def test_losses_in_step_with_the_drive_are_no_harmonics(rate, every, second):
+    """One of every few samples is lost, and the lines are numbered."""
+    harmonics = ((2, second, 1.0, second, 0.4),) if second else ()
+    time, readings = sampled(rate, harmonics=harmonics)
+    kept = np.arange(len(time)) % every != 3
+    fault = fault_of(text_of(time[: kept.sum()], readings[:, kept]))
+    assert f"f every {every}th sample is lost" in fault and "the drive vibrates at 50 Hz" in fault
+
+
+def test_two_sensors_whose_noise_hides_their_difference_are_told_by_its_spread():
+    time, readings = sampled(1613.7, noise=1.0)
+    is_second = np.random.default_rng(3).random(len(time)) < 0.5
+    mixed = np.where(is_second, 0.85, 1.0) * readings
+    assert "% (standard deviation), and phases that do not, as two sensors in one file do" in fault_of(
+        text_of(time, mixed)
+    )
+
+
+@pytest.mark.parametrize(("rate", "order"), [(1613.7, 9), (1600.0, 10)])
+def test_a_weak_harmonic_of_high_order_is_no_second_sensor_and_cuts_nothing_off(rate, order):
+    time, readings = sampled(rate, harmonics=((order, 0.03, 0.5, 0.03, 1.0),))
+    found = estimates(text_of(time, readings))
+    assert order in found[2]

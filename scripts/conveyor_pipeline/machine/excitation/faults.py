@@ -17,6 +17,7 @@ from conveyor_pipeline.machine.excitation.harmonics import (
     first_fit,
     fit,
     gaps_of,
+    orders_of,
     phases_of,
     sampling_rate,
     steadiness,
@@ -30,6 +31,7 @@ from conveyor_pipeline.machine.excitation.modulation import (
     errors_of,
     is_sawtooth,
     jump_of,
+    loss_in_step,
     losses_of,
     modulation_of,
     order_at_half,
@@ -60,6 +62,7 @@ CHANCE = 1e-4  # that noise alone looks like a jump of the phase or the amplitud
 MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
 MOST_RATE_ERROR = 2e-3  # relative standard error of the sampling rate
 MOST_SCATTER = 0.3  # rad, of the phase: times that the samples were not taken at
+MOST_SPREAD = 0.03  # standard deviation of relative errors of the amplitude from line to line
 NEIGHBOURS, REPEATED = 10, 10.0  # values on either side, and how many times more often one value may be read
 OUTLIER = 20.0  # times the 95 % quantile of a column, from which a sample is no vibration
 UNSTEADY = 0.15  # relative standard deviation of the amplitude, above which its mean is no parameter of the drive
@@ -317,6 +320,13 @@ def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             f"times are not those of the samples{or_harmonic(signal)}. If every {every:.3g}th sample is lost, the "
             f"drive vibrates at {right:.5g} Hz; record without losses, or with the time of each sample",
         )
+    elif every := loss_in_step(signal.time, signal.recording.acceleration[:, : len(signal.time)], signal.fitted):
+        yield (
+            None,
+            f"has harmonics that vanish if every {every}th sample is lost, and then the drive vibrates at "
+            f"{signal.fitted.frequency * (every - 1.0) / every:.5g} Hz; record without losses, or with the time of "
+            "each sample",
+        )
     elif jump := signal.jump("imag"):
         yield (
             int(signal.recording.lines[jump.sample]),
@@ -376,6 +386,12 @@ def mixture_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             f"mixes lines with amplitudes that differ by {100.0 * difference:.2g} %, as two sensors in one file do; "
             "keep the lines of one sensor",
         )
+    elif (spread := signal.modulation.spread) > MOST_SPREAD:
+        yield (
+            None,
+            f"has amplitudes that differ from line to line by {100.0 * spread:.2g} % (standard deviation), and phases "
+            "that do not, as two sensors in one file do; keep the lines of one sensor",
+        )
 
 
 def saturation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
@@ -385,7 +401,7 @@ def saturation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     gap = max(float(np.diff(phases).max()), 1.0 + phases[0] - phases[-1])
     is_fine = signal.rate / fitted.frequency > LEAST_FOR_TOPS
     centred = signal.time - fitted.middle
-    design = design_of(centred, centred[-1], fitted.frequency, fitted.orders)
+    design = design_of(centred, centred[-1], fitted.frequency, orders_of(signal.rate, fitted.frequency))
     for key, readings in zip(recording.columns, recording.readings, strict=True):
         quantum = recording.quanta.max()
         is_flat = flattened(readings, quantum, gap) or (is_fine and has_flat_tops(readings))

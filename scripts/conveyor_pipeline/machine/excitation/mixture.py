@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from conveyor_pipeline.machine.excitation.harmonics import Fit, design_of, project
+from conveyor_pipeline.machine.excitation.harmonics import Fit, design_of, orders_of, project, sampling_rate
 
 ROUNDS = 8
 # Two sensors leave at most this share of what one fit leaves; two fits of one noise leave 68 %, of a sine 19 %.
@@ -37,8 +37,9 @@ def mixture_of(time: np.ndarray, signals: np.ndarray, fitted: Fit) -> float | No
     is_usual = sizes <= np.quantile(sizes, USUAL)
     if errors.min(axis=0)[is_usual].sum() > LEFT * sizes[is_usual].sum() or turns < LEAST_TURNS:
         return None
-    # Every second cycle may be another one.
-    halves = project(centred, fitted.residual, 0.5 * fitted.frequency, 2 * fitted.orders)[1]
+    # Every second cycle may be another one, or there are harmonics of high orders.
+    orders = orders_of(sampling_rate(time), fitted.frequency)
+    halves = project(centred, fitted.residual, 0.5 * fitted.frequency, 2 * orders)[1]
     if (halves**2).sum() < 0.5 * sizes.sum():
         return None
     first, second = (np.hypot(one[2], one[2 + fitted.orders]) for one in both)

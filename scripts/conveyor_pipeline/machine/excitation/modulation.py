@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from conveyor_pipeline.machine.excitation.harmonics import Fit, sampling_rate
+from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of, project, sampling_rate
 
 NEARBY = 41  # frequencies whose median is the noise at the one in the middle
 OUT_OF_NOISE = 6.0  # times the noise, from which a line is none of it
@@ -33,7 +33,11 @@ SLOW_LINES, ALONE = 7, 0.1
 EDGE = 0.03  # energy that a straight line leaves of a step, per sample, below which the step is too near an end
 PLACES = 50.0  # of a jump in a recording, as if their noise were independent
 HALF_RATE = 8  # highest order of a harmonic that may have half of the sampling rate
-SCATTERED = 1.5  # ratio of the powers of both parts from which times scatter
+# Samples that are tried with losses at the same phases of each cycle; most losses in a cycle, and fewest samples
+# between two; least amplitude of harmonics over the fundamental's; shares of their power, and of the rest's, that may
+# remain.
+TRIED, MOST_LOSSES, LEAST_BETWEEN, LEAST_SHARE, VANISHED, KEPT = 4096, 8, 3, 0.005, 0.2, 1.1
+SCATTERED = 1.5  # ratio of the powers of both parts from which times, or amplitudes from line to line, scatter
 
 
 class Modulation(NamedTuple):
@@ -46,6 +50,7 @@ class Modulation(NamedTuple):
     # sign from sample to sample, of each axis, shape (2, 2)
     alternating_noise: np.ndarray  # its standard deviation, shape (2,)
     scatter: float  # rad, standard deviation of errors of the phase from sample to sample beyond those of the amplitude
+    spread: float  # the same of relative errors of the amplitude beyond those of the phase
 
     @property
     def count(self) -> int:
@@ -80,7 +85,8 @@ def modulation_of(time: np.ndarray, fitted: Fit) -> Modulation:
     floors = np.median(phase) ** 2, np.median(gain) ** 2
     unit = 4.0 * (window**2).sum() / window.sum() ** 2 * math.log(2.0)
     scatter = math.sqrt((floors[0] - floors[1]) / unit) if floors[0] > SCATTERED * floors[1] else 0.0
-    return Modulation(np.fft.rfftfreq(count), phase, gain, alternating, noise, scatter)
+    spread = math.sqrt((floors[1] - floors[0]) / unit) if floors[1] > SCATTERED * floors[0] else 0.0
+    return Modulation(np.fft.rfftfreq(count), phase, gain, alternating, noise, scatter, spread)
 
 
 def timing_line(time: np.ndarray, fitted: Fit, found: Modulation) -> tuple[float, float] | None:
@@ -95,6 +101,30 @@ def timing_line(time: np.ndarray, fitted: Fit, found: Modulation) -> tuple[float
     counts &= found.frequency * count > SLOW
     place = int(np.argmax(np.where(counts, found.phase, 0.0)))
     return (float(found.frequency[place]), float(found.phase[place])) if counts[place] else None
+
+
+def loss_in_step(time: np.ndarray, signals: np.ndarray, fitted: Fit) -> int | None:
+    """The number of samples of which one is lost, at the same phases of each cycle, or None.
+
+    Such losses look like harmonics, of which those from the third on vanish with the right times.
+    """
+    per_cycle = sampling_rate(time) / fitted.frequency
+    seen = float((np.abs(fitted.amplitudes[:, 2:]) ** 2).sum())
+    if seen < LEAST_SHARE**2 * float((np.abs(fitted.amplitudes[:, 0]) ** 2).sum()):
+        return None
+    rest, part = (fitted.residual**2).mean(), signals[:, :TRIED]
+    numbers, interval = np.arange(part.shape[1]), 1.0 / sampling_rate(time)
+    for losses in range(1, MOST_LOSSES + 1):
+        between = round(per_cycle / losses)
+        slip = abs(between * losses / per_cycle - 1.0) * fitted.frequency * duration_of(time)
+        for first in range(between) if between >= LEAST_BETWEEN and slip < 1.0 else ():
+            right = interval * (numbers + (numbers + first) // between)
+            frequency = fitted.frequency * between / (between + 1.0)
+            values, left = project(right - 0.5 * (right[0] + right[-1]), part, frequency, fitted.orders)
+            harmonics = values[2:].reshape(2, fitted.orders, 2)[:, 2:]
+            if (harmonics**2).sum() < VANISHED * seen and (left**2).mean() < KEPT * rest:
+                return between + 1
+    return None
 
 
 def is_sawtooth(found: Modulation, frequency: float) -> bool:

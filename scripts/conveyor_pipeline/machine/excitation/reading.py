@@ -3,6 +3,7 @@
 The config check reads the file before any job starts, so this module imports nothing slower than NumPy.
 """
 
+import itertools
 import math
 import re
 from collections.abc import Callable, Mapping
@@ -17,7 +18,7 @@ UNITS = {"m/s²": 1.0, "g": STANDARD_GRAVITY, "mm/s²": 1e-3, "mg": 1e-3 * STAND
 TIME_UNITS = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9}
 # How the header of a file may write a unit.
 SPELLINGS = {
-    **dict.fromkeys(("m/s^2", "m/s2", "m/s/s", "m/sec^2", "m/s**2", "ms^-2", "ms-2", "m s^-2"), "m/s²"),
+    **dict.fromkeys(("m/s^2", "m/s2", "m/s/s", "m/sec^2", "m/s**2", "ms^-2", "ms-2", "m s^-2", "m·s⁻²"), "m/s²"),
     **dict.fromkeys(("mm/s^2", "mm/s2", "mm/s/s"), "mm/s²"),
     **{"G": "g", "gee": "g", "g0": "g", "mG": "mg", "milli-g": "mg", "sec": "s", "seconds": "s", "second": "s"},
     **{"msec": "ms", "milliseconds": "ms", "us": "µs", "usec": "µs", "μs": "µs", "microseconds": "µs"},
@@ -32,17 +33,17 @@ MOST_SAMPLES = 2_000_000  # 80 s at 25 kHz; the fit of more takes minutes and gi
 MOST_BYTES = 50 * MOST_SAMPLES
 LEAST_SAMPLES = 64  # eight cycles of eight samples
 MOST_FAULTS = 5
-ANOTHER_RATE = 1.1  # a stated rate contradicts the times of a file by more, which lost samples do not explain
+ANOTHER_RATE = 1.01  # a stated rate contradicts the times of a file by more, which no clock is wrong by
 EXAMPLE = 'time,along,normal, or excitation.columns names them by number, such as {time: "1", x: "2", z: "3"}'
 # Names of columns that need no `columns` in the config: phyphox writes `Acceleration x (m/s^2)`, others accel_x or ax.
 KNOWN = {"time": re.compile(r"(time|timestamp|t|(time|timestamp|t)[ _](s|ms|us|µs|ns))", re.IGNORECASE)}
 KNOWN |= {name: re.compile(name, re.IGNORECASE) for name in AXES}
 KNOWN |= {name: re.compile(rf"((linear )?acc(el|eleration)?[ _.]?|a)?{name}", re.IGNORECASE) for name in SENSOR}
 
-# The third axis of a sensor; the size of its mean over gravity that no offset has, and how much more than a used one it
-# vibrates if the wrong axes are used.
-THIRD = re.compile(r"((linear )?acc(el|eleration)?[ _.]?|a)?y", re.IGNORECASE)
-GRAVITY, STRONGER = (0.5, 1.5), 2.0
+# The three axes of a sensor; the size of a mean over gravity that no offset has; and the share of the vibration along
+# the track in the axis that is not used, from which the sensor may be turned: the amplitude would be 4 % too small.
+OF_SENSOR = re.compile(r"((linear )?acc(el|eleration)?[ _.]?|a)?[xyz]", re.IGNORECASE)
+GRAVITY, TURNED = (0.5, 1.5), 0.3
 
 
 class Recording(NamedTuple):
@@ -66,7 +67,7 @@ class Recording(NamedTuple):
 
 def is_known(header: str) -> bool:
     """Whether the header of a column says what it is, without `columns` in the config."""
-    name = re.sub(r"\s*[(\[].*", "", header.lstrip("# ")).strip()
+    name = re.sub(r"\s*[(\[<{/].*", "", header.lstrip("# ")).strip()
     return any(pattern.fullmatch(name) for pattern in KNOWN.values())
 
 
@@ -87,7 +88,7 @@ def spellings_of(header: str) -> set[str]:
     """The names under which the config may state a column: with and without its unit and a leading #."""
     whole = header.strip().lower()
     bare = whole.lstrip("# ")
-    return {whole, bare, re.sub(r"\s*[(\[][^()\[\]]*[)\]]$", "", bare)}
+    return {whole, bare, re.sub(r"\s*[(\[][^()\[\]]*[)\]]$", "", bare), re.sub(r"\s*/[^/]*$", "", bare)}
 
 
 def quote(name: str) -> str:
@@ -115,6 +116,9 @@ def find_columns(table: Any, settings: Mapping[str, Any]) -> tuple[dict[str, str
         else:
             there = ", ".join(quote(one) for one in names)
             faults.append(f"has no column {bare!r}, which excitation.columns.{key} names; there are {there}")
+    for key, other in itertools.combinations(places, 2):
+        if places[key] == places[other]:
+            faults.append(f"has one column {names[places[key]]!r} for both {key} and {other} in excitation.columns")
     pairs = [pair for pair in (AXES, SENSOR) if {*pair} & {*stated}]
     if len(pairs) == 2:
         faults.append("has x, z and along, normal in excitation.columns; name one pair")
@@ -162,9 +166,15 @@ def guess_column(key: str, names: list[str], found: Mapping[str, str]) -> str:
     return next((name for name in free if close and name.lower() == close[0]), "…")
 
 
+def plain(unit: str) -> str:
+    """A unit as UNITS and TIME_UNITS spell it, or as it is; capitals matter to none but the first spelling."""
+    known = {**dict(zip(UNITS, UNITS, strict=True)), **dict(zip(TIME_UNITS, TIME_UNITS, strict=True)), **SPELLINGS}
+    return known.get(unit) or known.get(unit.lower(), unit)
+
+
 def unit_of(stated: str | None, headers: list[str], units: Mapping[str, float], key: str) -> tuple[str, list[str]]:
     """The unit of columns, from the config, the header, or else the first of `units`, and faults."""
-    given = {SPELLINGS.get(header, header) for header in headers if header}
+    given = {plain(header) for header in headers if header}
     shown, choice = " and ".join(sorted(given)), f"state excitation.{key} ({', '.join(units)})"
     if stated:
         fault = f"states the unit {shown}, but excitation.{key} is {stated}; leave {key} out, or correct the header"
@@ -185,12 +195,12 @@ def rate_fault(table: Any, rate: float) -> str | None:
     seconds, wrong = table.seconds(place, 1.0)
     if wrong or seconds[-1] <= seconds[0]:
         return None
-    stated = TIME_UNITS.get(SPELLINGS.get(table.units[place], table.units[place]))
+    stated = TIME_UNITS.get(plain(table.units[place]))
     own = (len(seconds) - 1) / (seconds[-1] - seconds[0])
     rates = [own / unit for unit in ([stated] if stated else TIME_UNITS.values())]
     nearest = min(rates, key=lambda one: abs(math.log(one / rate)))
     steps = np.diff(seconds)
-    coarse = steps[steps > 0.0].min() / (seconds[-1] - seconds[0])  # relative error of the duration by rounding
+    coarse = steps.max() / (seconds[-1] - seconds[0])  # relative error of the duration by rounding
     if (1.0 - coarse) / ANOTHER_RATE < nearest / rate < ANOTHER_RATE * (1.0 + coarse):
         return None
     name = quote(table.names[place])
@@ -246,8 +256,9 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
         values, wrong = table.numbers(places[key], key, remedy_of_line(rate is not None))
         readings.append(-values if names[key].startswith("-") and names[key] not in table.names else values)
         faults += wrong
-    if not faults and pair == SENSOR and not {*SENSOR} & {*settings.get("columns", {})}:
-        faults += third_axis_faults(table, names, places, readings, unit)
+    if not faults and pair == SENSOR:
+        is_stated = bool({*SENSOR} & {*settings.get("columns", {})})
+        faults += third_axis_faults(table, names, places, readings, unit, is_stated)
     if rate is None:
         time, wrong = table.seconds(places["time"], TIME_UNITS[time_unit])
         faults += wrong
@@ -270,26 +281,38 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
 
 
 def third_axis_faults(
-    table: Any, names: Mapping[str, str], places: Mapping[str, int], readings: list, unit: str
+    table: Any, names: Mapping[str, str], places: Mapping[str, int], readings: list, unit: str, is_stated: bool
 ) -> list[tuple[int, str]]:
-    """What a third axis, which is not used, says about the choice of x and z that the config does not state."""
-    free = [place for place, name in enumerate(table.names) if place not in places.values() and THIRD.fullmatch(name)]
+    """What the third axis of a sensor, which is not used, says about the choice of x and z.
+
+    is_stated : whether the config states x or z; then the plate may vibrate across the track
+    """
+    free = [place for place, name in enumerate(table.names) if place not in places.values()]
+    free = [place for place in free if OF_SENSOR.fullmatch(table.names[place])]
     if len(free) != 1:
         return []
     values, wrong = table.numbers(free[0], table.names[free[0]])
     if wrong or not len(values):
         return []
-    name, least = table.names[free[0]], min(float(np.std(one)) for one in readings)
-    upright = columns_entry({**names, "z": name})
+    name, along = table.names[free[0]], readings[0]
     if GRAVITY[0] < abs(values.mean()) * UNITS[unit] / STANDARD_GRAVITY < GRAVITY[1]:
         shown = f"has gravity in the column {name}, which is not used"
-        return [(table.header, f"{shown}: the axis normal to the track is {name}; set {upright}, and check x")]
-    if values.std() > STRONGER * least:
-        shown = (
-            f"vibrates {values.std() / max(least, 1e-300):.3g} times as much in the column {name}, which is not used"
-        )
-        there = f"say which axes are along (x) and normal to the track (z), such as {upright}"
-        return [(table.header, f"{shown}, as in one of {quote(names['x'])} and {quote(names['z'])}; {there}")]
+        remedy = f"set {columns_entry({**names, 'z': name})}, and check x"
+        return [(table.header, f"{shown}: the axis normal to the track is {name}; {remedy}")]
+    # Of a turned sensor, this is the tangent of the angle; noise and a vibration out of phase have no part in it.
+    share = abs(np.cov(along, values)[0, 1]) / max(float(np.var(along, ddof=1)), 1e-300)
+    degrees = math.degrees(math.atan(share))
+    others = {**names, "x": name} if share > 1.0 else names
+    if share > TURNED and not is_stated:
+        return [
+            (
+                table.header,
+                f"vibrates in the column {name}, which is not used, with {share:.2g} times the vibration in "
+                f"{quote(names['x'])}: the sensor may be turned about its normal by {degrees:.0f}°, so that the "
+                f"amplitude would be too small; turn it, or say which axis is along the track by "
+                f"{columns_entry(others)}",
+            )
+        ]
     return []
 
 

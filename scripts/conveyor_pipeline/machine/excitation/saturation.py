@@ -35,7 +35,7 @@ def exceeds(values: np.ndarray, quantum: float, design: np.ndarray, width: float
     if count <= 2 * len(design) or np.linalg.cond(gram) > SINGULAR:
         return False
     most = products @ np.linalg.solve(gram, products)
-    variance = (values[between] @ values[between] - most) / (count - len(design))
+    variance = max(values[between] @ values[between] - most, 0.0) / (count - len(design))
     flat = values[strip].std() + quantum
     phases = np.arctan2(part[2 + orders], part[2]) / (2.0 * math.pi)
     separate = len(np.unique(np.round(PHASES * phases) % PHASES))
