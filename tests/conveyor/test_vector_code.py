@@ -63,8 +63,8 @@ def test_contact_steps_are_vector_code(widest, harmonics, least):
 @pytest.mark.parametrize(
     ("method", "least", "plate"),
     [
-        ("euler", 30, {}),
-        ("euler", 30, {"harmonics": [{"order": 2, "normal": 0.1}, {"order": 5, "along": 0.1}]}),
+        ("euler", 20, {}),
+        ("euler", 20, {"harmonics": [{"order": 2, "normal": 0.1}, {"order": 5, "along": 0.1}]}),
         ("rk4", 90, {"inclination": 0.1, "phase_shift": 0.5, "static_friction": 0.5}),
     ],
 )
