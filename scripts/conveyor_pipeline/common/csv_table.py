@@ -227,10 +227,13 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
             named = [name_and_unit(field, units) for field in split(line, separator)]
             names, units_of = map(list, zip(*named, strict=True))
         beside = [content[at] for at in (place - 1, place + 1) if 0 <= at < len(content)] if place >= 0 else []
-        stating = [one for one in beside if is_unit_line(split(one[1].lstrip("# "), separator), units)]
-        for _, line in stating:
-            stated = split(line.lstrip("# "), separator)
-            units_of = [UNIT.sub(r"\1", one) or own for one, own in zip([*stated, *names], units_of, strict=False)]
+        stating = []
+        for numbered in beside:
+            stated = split(numbered[1].lstrip("# "), separator)
+            if len(stated) > 1 and is_unit_line(stated, units):
+                stating.append(numbered)
+                padded = [*stated, *[""] * len(names)]
+                units_of = [UNIT.sub(r"\1", one) or own for one, own in zip(padded, units_of, strict=False)]
         following = [one for one in content[place + 1 :] if one not in stating]
         rows = [(number, line) for number, line in following if not line.lstrip('"').startswith("#")]
         widths = np.array([widths_of(line, separator) for _, line in rows], dtype=np.int64)

@@ -1,3 +1,5 @@
+"""Frictions of the corners of a block."""
+
 import numpy as np
 import pytest
 

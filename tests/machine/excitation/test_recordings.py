@@ -829,6 +829,18 @@ def test_a_unit_line_may_state_further_units():
     assert check(text, {"mount": PURE.mount}).unit == "g"
 
 
+def test_gravity_on_an_axis_that_is_not_used_is_refused_also_if_the_columns_are_stated():
+    time, (along, normal) = replace(PURE, mount=0.0).record()
+    rows = np.array([time, along, np.zeros(len(time)), normal]).T
+    text = "\n".join(["t,ax,ay,az", *(",".join(f"{value:.6f}" for value in row) for row in rows), ""])
+    fault = fault_of(text, mount=0.0, columns={"time": "t", "x": "ax", "z": "ay"})
+    assert "has gravity in the column az, which is not used" in fault
+
+
+def test_a_comment_above_the_header_that_looks_like_a_unit_is_a_comment():
+    assert check("# g\n" + text_of(TIMES, READINGS), {"mount": PURE.mount}).unit == "m/s²"
+
+
 def test_one_column_for_both_axes_is_refused():
     fault = fault_of(text_of(TIMES, READINGS), columns={"time": "time", "x": "x", "z": "x"})
     assert "has one column 'x' for both x and z in excitation.columns" in fault

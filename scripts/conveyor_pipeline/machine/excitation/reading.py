@@ -167,8 +167,8 @@ def guess_column(key: str, names: list[str], found: Mapping[str, str]) -> str:
 
 
 def plain(unit: str) -> str:
-    """A unit as UNITS and TIME_UNITS spell it, or as it is; capitals matter to none but the first spelling."""
-    known = {**dict(zip(UNITS, UNITS, strict=True)), **dict(zip(TIME_UNITS, TIME_UNITS, strict=True)), **SPELLINGS}
+    """A unit as UNITS and TIME_UNITS spell it, whatever its capitals, or as it is if it is not known."""
+    known = {name: name for name in (*UNITS, *TIME_UNITS)} | SPELLINGS
     return known.get(unit) or known.get(unit.lower(), unit)
 
 
