@@ -576,6 +576,10 @@ def test_advice_has_the_measures_of_its_amplitude_and_of_changed_conveyors():
     assert more.velocity_05 == alone.velocity_05
     assert more.gain == pytest.approx(alone.velocity_05 / own.velocity_05 - 1.0)
     assert more.widening == pytest.approx(alone.spread / own.spread - 1.0)
+    back = table.assign(velocity_95=-0.01)
+    back.attrs = settings
+    found = advice.make(back, shares_table, {"range": [0.99, 1.01], "changes": {"friction": 0.02}})
+    assert len(found["advice"]["aim"]) == len(found["changes"]["aim"]) == 0
     found = advice.describe_states(shares_table, 40.0)
     assert found == {"states": "second 70 %, first 30 %", "states_acceleration": 39.0}
 
