@@ -41,6 +41,7 @@ def bodies_at(low, high, flat_low, flat_high):
     )
     table = pd.concat([points, blocks], ignore_index=True)
     table = table.assign(velocity_50=0.5 * (table.velocity_05 + table.velocity_95))
+    table["velocity_50_stderr"] = 0.03 * table.velocity_50
     table.attrs = {"model": MODEL}
     return table
 
@@ -56,7 +57,7 @@ def test_what_remains_for_a_flat_block():
     assert "| 40.0 | 1.00, 3.50, 6.00 | 50 % | 1.00, 1.05, 1.10 | 100 % |" in text
     assert "Points have two at 30 and 40 m/s², flat blocks at\n  60 m/s²" in text
     assert "differs from that of points by at most 1.1 %" in text
-    assert "From 80 m/s² on" in text and "by +18 to +18 %" in text
+    assert "From 80 m/s² on" in text and "by +18 to +18 %, with standard errors of 5 to 5 %" in text
     alike = bodies_at(0.1, 0.12, 0.101, 0.12)
     assert "Points have two at no amplitude" in checked_page.make(TEMPLATE, pd.DataFrame([ROW]), POINTS, alike)
 

@@ -13,8 +13,6 @@ FIGURES = ("figures", "figures_on_request")
 SETTLING = ("sweeps", "critical", "impacts", "signals", "spectra")
 # Sections whose entries may list several methods.
 METHOD_SECTIONS = ("sweeps", "estimates", "critical", "dimensions", "signals", "spectra")
-# Sections whose tables depend on a tolerance, directly or through another table.
-TIGHTENED = (*METHOD_SECTIONS, "regressions")
 # Files of measurements that an overlay may name: the key in each section that has one.
 MEASURED_FILES = declared("MEASURED_FILES")
 # Ending of the name of a table with a tighter tolerance; the name of an entry cannot have a dot.
@@ -44,15 +42,12 @@ def by_methods(config: dict) -> dict:
 
 def with_tighter(config: dict) -> dict:
     """A config with one method per entry, and each converged table a second time, with a tighter tolerance."""
-    expanded = config | {section: dict(config[section]) for section in TIGHTENED}
+    expanded = config | {section: dict(config[section]) for section in METHOD_SECTIONS}
     for section in METHOD_SECTIONS:
         for name, entry in config[section].items():
             if entry.get("method", config["solver"]["method"]) == "event":
                 tolerance = entry.get("tolerance", config["solver"]["tolerance"]) / config["uncertainty"]["tighter"]
                 expanded[section][name + TIGHTER] = entry | {"tolerance": tolerance}
-    for name, entry in config["regressions"].items():
-        if entry["critical"] + TIGHTER in expanded["critical"]:
-            expanded["regressions"][name + TIGHTER] = entry | {"critical": entry["critical"] + TIGHTER}
     return expanded
 
 

@@ -19,7 +19,7 @@ import pandas as pd
 
 from conveyor.analysis.stroboscopic_map import MAX_PERIOD
 from conveyor_pipeline.machine.excitation import effects
-from conveyor_pipeline.machine.operating.populations import ENDS, POPULATIONS, differences
+from conveyor_pipeline.machine.operating.populations import ENDS, EVEN, POPULATIONS, differences
 from conveyor_pipeline.machine.operating.regimes import SEVERAL
 from conveyor_pipeline.pages.flat_blocks import compare_flat
 from conveyor_pipeline.paper.caption_numbers import fig10, moved_impacts
@@ -93,13 +93,15 @@ def evenest_from(varied: pd.DataFrame, onset: float | None) -> float | None:
     return float(even.min()) if len(even) else None
 
 
-def summarize_transit(transit: pd.DataFrame, lengths: pd.DataFrame, onset: float | None) -> dict[str, Any]:
-    """Where identical parts differ most in their velocity, where varied parts differ least, and the track's length."""
+def summarize_transit(
+    transit: pd.DataFrame, lengths: pd.DataFrame, advice: pd.DataFrame, onset: float | None
+) -> dict[str, Any]:
+    """Where identical parts differ most in their velocity, the advised even amplitude, and the track's length."""
     widest = lengths[lengths.regime == SEVERAL].sort_values(["spread", "length"]).acceleration.iloc[-1]
     identical, varied = (transit[transit.population == kind] for kind in POPULATIONS)
     return {
         "uneven": identical.loc[(identical.acceleration - widest).abs().idxmin()].to_dict(),
-        "even": varied.loc[varied.spread.idxmin()].to_dict(),
+        "even": advice.set_index("aim").loc[EVEN].to_dict(),
         "evenest_from": evenest_from(varied, onset),
         "track": transit.attrs["length"],
         "middle": ENDS[1] - ENDS[0],
@@ -114,7 +116,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
     ----------
     tables : claims, errors and times of the scenes by the names SCENE and SCENE_times, edge, edge_euler, estimate,
         estimate_euler, on_plate, spectrum, cascade, certificates, certified_bifurcations, certified_chaos, fit,
-        moved, transit, lengths, drives and bodies
+        moved, transit, lengths, advice, drives and bodies
     """
     claims = tables["claims"].set_index("id")
     first_error, second_error, equal_signs = claims.paper_method["C22"]
@@ -140,7 +142,7 @@ def collect_facts(tables: dict[str, pd.DataFrame]) -> dict[str, Any]:
         "late_limits": late_limits(tables["claims"]),
         **summarize_proofs(tables["certificates"], tables["certified_bifurcations"], tables["certified_chaos"]),
         **summarize_speed(tables),
-        **summarize_transit(tables["transit"], tables["lengths"], onset["accumulation"]),
+        **summarize_transit(tables["transit"], tables["lengths"], tables["advice"], onset["accumulation"]),
         "clean": effects.statement_of(tables["drives"]),
         "flat": compare_flat(tables["bodies"]),
     }

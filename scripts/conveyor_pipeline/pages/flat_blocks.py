@@ -32,14 +32,16 @@ def compare_flat(bodies: pd.DataFrame) -> dict[str, Any]:
     -------
     length and height of the blocks in mm; the amplitudes at which points and blocks have two velocities; `above`, the
     lowest amplitude beyond all of them; `faster`, least and largest relative difference of the medians from there on,
-    and the relative spreads there; `slow`, the largest relative difference of the lower quantiles where all blocks
-    ride. None stands for what the table does not contain.
+    `stderr`, its least and largest standard error, and the relative spreads there; `slow`, the largest relative
+    difference of the lower quantiles where all blocks ride. None stands for what the table does not contain.
     """
     model, rows = bodies.attrs["model"], beside_points(bodies)
     length = length_scale(model)
     two = {"points": two_velocities(rows, "point"), "flat": two_velocities(rows, "flat")}
     chaos = rows[rows.acceleration.round(1) > max([*two["points"], *two["flat"]], default=0.0)]
-    faster = chaos.velocity_50_flat / chaos.velocity_50_point - 1.0
+    ratio = chaos.velocity_50_flat / chaos.velocity_50_point
+    errors = (chaos[f"velocity_50_stderr_{name}"] / chaos[f"velocity_50_{name}"] for name in ("point", "flat"))
+    stderr = ratio * np.hypot(*errors)
     riding = rows[(rows.rides_point > 0.0) & (rows.rides_flat == 1.0)]
     slow = riding.velocity_05_flat / riding.velocity_05_point - 1.0
 
@@ -57,7 +59,8 @@ def compare_flat(bodies: pd.DataFrame) -> dict[str, Any]:
         "two": two,
         "begins_later": bool(two["points"] and two["flat"] and min(two["flat"]) > min(two["points"])),
         "above": round(chaos.acceleration.min(), 1) if len(chaos) else None,
-        "faster": [faster.min(), faster.max()] if len(chaos) else None,
+        "faster": [ratio.min() - 1.0, ratio.max() - 1.0] if len(chaos) else None,
+        "stderr": [stderr.min(), stderr.max()] if len(chaos) else None,
         "spread_points": spread("point") if len(chaos) else None,
         "spread_flat": spread("flat") if len(chaos) else None,
         "slow": float(np.abs(slow).max()) if len(riding) else None,

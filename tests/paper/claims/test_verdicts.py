@@ -191,6 +191,15 @@ def test_onset_of_chaos_by_scatter_and_by_state():
     finding = about_states.onset_of_chaos(**both(table), certificates=certificates())
     assert (numbers(finding.euler), numbers(finding.converged)) == ((55.0, 63.0), (55.0, 63.0))
     assert "settle to chaos only from 63 m/s² on" in finding.note
+    early = sweep(
+        lambda a, z: "first" if a < 50.0 and z == 0.0 else "chaos" if a >= 63.0 else "second",
+        lambda a, z: 0.1 + (z * 1e3 if a >= 55.0 or a in (50.0, 52.0) else 0.0),
+    )
+    note = about_states.onset_of_chaos(**both(early), certificates=certificates()).note
+    assert (
+        "From 55 m/s² on, velocities scatter at all amplitudes, and at 2 of 5 amplitudes between there and 49 m/s²"
+        in note
+    )
     assert (
         "Between these amplitudes, 100 % of the motions settle to a periodic motion (period 1 for 100 %)"
         in finding.note
@@ -309,6 +318,10 @@ def test_velocities_of_both_states():
     tables["velocities_of"] = {"lower_end": [1.4, 1.8], "upper_end": [2.3, 4.75], "fall": [0.1, 0.13]}
     assert numbers(about_states.first_velocity(**tables).converged) == pytest.approx((2.9, 4.7))
     assert numbers(about_states.second_velocity(**tables).converged) == pytest.approx((0.18,))
+    dip = heights.assign(mean_velocity=heights.mean_velocity.where(heights.acceleration != 40.0, 0.06))
+    assert "6.00 cm/s, is at 40 m/s², so that its largest fall within the interval is 1 cm/s" in (
+        about_states.second_velocity(**{**tables, **both(dip)}).note
+    )
     note = about_states.first_velocity(**tables).note
     assert "4.70 cm/s (clip)" in note
     assert "the first state's velocity at the lower end at frictions of 0.5 to 0.6, at the upper end" in note
@@ -317,11 +330,16 @@ def test_velocities_of_both_states():
         in note
     )
     tables["velocities_of"]["fall"] = [0.3, 0.36]
-    assert about_states.second_velocity(**tables).note.endswith("No friction gives all of them")
+    # At 0.6 the velocities are 1.74 and 2.82, 6 % below its interval, and the fall is 0.108, 10 % below its own.
+    tables["velocities_of"] = {"lower_end": [1.4, 1.8], "upper_end": [3.0, 3.5], "fall": [0.12, 0.13]}
+    note = about_states.second_velocity(**tables).note
+    assert note.endswith(
+        "At 0.6 they come nearest: each lies within its accepted interval or misses it by at most 10.0 % of its end"
+    )
 
 
-def test_fit_comes_from_the_regression():
-    table = pd.DataFrame(
+def test_both_errors_of_the_fit_are_those_of_the_same_amplitudes():
+    fits = pd.DataFrame(
         {
             "fit": ["pymoo", "paper", "valley", "valley"],
             "A": 0.004,
@@ -330,17 +348,28 @@ def test_fit_comes_from_the_regression():
             "error": [1e-11, 2e-11, 3e-11, 1.5e-11],
         }
     )
-    table.attrs["acceleration"] = [29.0, 47.0]
+    fits.attrs["acceleration"] = [29.0, 47.0]
+
+    def heights(acceleration, misses, critical):
+        """Heights beside the curve of the paper's coefficients."""
+        acceleration = np.array(acceleration)
+        z0 = 0.004 / (acceleration - 19.5) - 1e-4 + np.array(misses)
+        return pd.DataFrame({"acceleration": acceleration, "z0": z0, "is_critical": critical})
+
     # Far from the curve outside the fitted amplitudes, and where the height is not critical.
-    acceleration = np.array([28.0, 30.0, 40.0, 41.0])
-    curve = 0.004 / (acceleration - 19.5) - 1e-4
-    edge = pd.DataFrame({"acceleration": acceleration, "z0": curve + np.array([1.0, 3e-6, 0.0, 1.0])})
-    finding = about_states.fit(**both(table), edge=edge.assign(is_critical=[True, True, True, False]))
-    assert numbers(finding.converged) == (2e-11, 1e-11)
-    assert "misses the converged heights by at most 3 µm (at 30 m/s²; median 2 µm)" in finding.note
-    assert (
-        "every B from -21 to -21" not in finding.note
-    )  # its error, 3e-11, is larger than the error of the paper's triple
+    fine = heights(
+        [28.0, 29.0, 30.0, 31.0, 32.0, 33.0, 33.0],
+        [1.0, 3e-6, 1e-6, 5e-6, 1e-6, 4e-6, 1.0],
+        [True, True, True, True, True, True, False],
+    )
+    coarse = heights([29.0, 31.0, 33.0], [1e-6, 1e-6, 2e-6], True)
+    finding = about_states.fit(converged=fine, euler=coarse, regression=fits)
+    assert numbers(finding.euler) == pytest.approx((2e-12,))
+    assert numbers(finding.converged) == pytest.approx((50e-12 / 3.0,))
+    assert "means over the 3 amplitudes of the paper's method, in steps of 2 m/s²" in finding.note
+    assert "over the 5 amplitudes in steps of 1 m/s², the converged error is 1.04e-11 m²" in finding.note
+    assert "misses the converged heights by at most 5 µm (at 31 m/s²; median 3 µm)" in finding.note
+    # The other one has a larger error than the paper's triple.
     assert "every B from -18 to -18" in finding.note
 
 
@@ -389,9 +418,9 @@ def test_lines_of_spectra():
     vertical = [spectrum(40.0, "vz", [0.0, 1.0, 0.01]), spectrum(50.0, "vz", [0.0, 1.0, 0.5, 0.3, 0.01])]
     assert numbers(about_states.vertical_lines(**both(pd.concat(vertical))).converged) == (2.0,)
     horizontal = [spectrum(40.0, "vx", [1.0, 0.5, 0.2]), spectrum(50.0, "vx", [1.0, 0.01, 0.01])]
-    assert numbers(about_states.horizontal_lines(**both(pd.concat(horizontal))).converged) == pytest.approx(
-        (2.0, 100.0)
-    )
+    finding = about_states.horizontal_lines(**both(pd.concat(horizontal)))
+    assert numbers(finding.converged) == pytest.approx((2.0, 100.0))
+    assert "with 0.5 %, the first state has 2 lines and the second 2" in finding.note
 
 
 def test_overlap_of_maps():
@@ -402,7 +431,7 @@ def test_overlap_of_maps():
     }
     finding = about_states.overlap(**maps)
     assert numbers(finding.converged) == pytest.approx((1.0 / 3.0, 0.25, 1.0 / 3.0, 0.25))
-    assert "higher amplitude, 50.0 % (Fig. 18) and 50.0 % (Fig. 19)" in finding.note
+    assert "first state 50.0 % (Fig. 18) and 50.0 % (Fig. 19), second state 0.0 % and 0.0 %" in finding.note
     assert " 0 points" in finding.note  # the chaos of the higher amplitude is not counted
 
 
@@ -546,22 +575,24 @@ def test_the_size_of_a_perturbation_explains_positive_exponents():
     assert (numbers(finding.euler), numbers(finding.converged)) == ((5.0, 0.0), (8.0, 0.0))
 
 
-def test_dimensions_are_compared_between_neighbours_only():
-    """From 1 to 2 across a missing value is no step."""
-    dimension = np.where(AMPLITUDES >= 62.0, 2.0, np.where(AMPLITUDES >= 60.0, 1.3, 1.0))
-    dimension[AMPLITUDES == 61.0] = math.nan
+def test_fluctuation_is_that_between_chaotic_neighbours():
+    """A jump into chaos is none, nor is the change from 1.7 to 2 across a missing value."""
+    dimension = np.where(
+        AMPLITUDES >= 72.0, 2.0, np.where(AMPLITUDES >= 65.0, 1.7, np.where(AMPLITUDES >= 60.0, 1.6, 1.0))
+    )
+    dimension[AMPLITUDES == 72.0] = math.nan
     table = pd.DataFrame({"acceleration": AMPLITUDES, "dimension": dimension})
-    table["status"] = np.where(np.isnan(dimension), "interval too wide", "ok")
-    tables = {**both(table), "converged_exponent": exponents(62.0), "euler_exponent": exponents(62.0)}
-    states = sweep(lambda a, z: "chaos" if a >= 63.0 else "second")
-    finding = about_chaos.predicted_onset(**tables, states=states, states_of_exponent=states)
-    assert finding.converged["largest_step"] == pytest.approx(0.3)
-    assert "no known dimension at 1 of 71 amplitudes (interval too wide: 1)" in finding.note
+    # In the lower height, the motion is chaotic from 60 m/s² on.
+    states = sweep(lambda a, z: "chaos" if a >= 60.0 and z == 0.0 else "second")
+    finding = about_chaos.fluctuation(**both(table), states=states)
+    assert numbers(finding.converged) == pytest.approx((0.1,))
+    assert "converged dimension changes by up to 0.60" in finding.note
 
 
 def test_onset_by_dimension():
     dimension = np.where(AMPLITUDES >= 62.0, 2.0, 1.0)
     table = pd.DataFrame({"acceleration": AMPLITUDES, "dimension": dimension, "status": "ok"})
+    table.loc[table.acceleration == 25.0, ["dimension", "status"]] = math.nan, "interval too wide"
     tables = {
         **both(table),
         "converged_exponent": exponents(59.0),
@@ -570,8 +601,9 @@ def test_onset_by_dimension():
         "states_of_exponent": sweep(lambda a, z: "chaos" if a >= 58.0 else "second"),
     }
     finding = about_chaos.predicted_onset(**tables)
-    assert (numbers(finding.euler), numbers(finding.converged)) == ((1.0, 4.0, 1.0), (1.0, 1.0, 1.0))
+    assert (numbers(finding.euler), numbers(finding.converged)) == ((1.0, 4.0), (1.0, 1.0))
     assert "1.00 to 2.00 in the second state and 2.00 to 2.00 in chaos" in finding.note
+    assert "no known dimension at 1 of 71 amplitudes (interval too wide: 1)" in finding.note
     assert "begins at 63 m/s² for the one of Fig. 24, and at 58 m/s² for the one of Fig. 22" in finding.note
     assert "dimension shows 62 m/s², and the converged estimate of Fig. 22 59 m/s²" in finding.note
 

@@ -39,6 +39,7 @@ FACTS = {
     "moved": table("results/moved_impacts"),
     "transit": table("operating/transit"),
     "lengths": table("operating/track_lengths"),
+    "advice": table("operating/advice"),
     "drives": table("excitation/clean_drive"),
     "bodies": table("operating/bodies"),
 }

@@ -40,7 +40,7 @@ def draw_map(axes: Axes, shapes: pd.DataFrame, motion: str) -> None:
         if np.isfinite(row.difference):
             text = f"{100.0 * row.difference:+.0f}" if row.difference < 1.0 else f"×{1.0 + row.difference:.2g}"
             axes.text(
-                row.length, row.height, text, ha="center", va="center", color="white" if right else "black", fontsize=7
+                row.length, row.height, text, ha="center", va="center", color="white" if right else "black", fontsize=6
             )
     axes.set(xscale="log", yscale="log", xlabel=r"length in $g\,\cos\alpha/\omega^2$", title=TITLES[motion])
     axes.margins(0.12)

@@ -128,7 +128,8 @@ def phase_estimate(
         f"{texts[1]}. There, {100 * (between(settled).period > 0).mean():.0f} % of these trajectories settle to a "
         "periodic motion. The lowest amplitude at which one stays chaotic is "
         f"{format_amplitude(settled[settled.chaotic].acceleration.min())}. {describe_perturbations(estimates)}. "
-        f"{describe_moved_impacts(moved)}"
+        f"{describe_moved_impacts(moved)}. Trajectories begin with ż0 = 0, which the paper leaves open; the onset of "
+        "positive estimates by its method can depend on this choice"
     )
     return Finding({"amplitude": begin}, {"amplitude": end}, note + about_proofs.describe_periodic(certificates, begin))
 
@@ -193,6 +194,11 @@ def dimension_onset(table: pd.DataFrame) -> float:
     return onset(rows.acceleration, rows.dimension > middle)
 
 
+def from_lowest_height(states: pd.DataFrame) -> pd.DataFrame:
+    """The motions from the lowest initial height, in the order of the amplitude."""
+    return states[states.z0 == states.z0.min()].sort_values("acceleration", kind="stable")
+
+
 def predicted_onset(
     *,
     euler: pd.DataFrame,
@@ -202,26 +208,18 @@ def predicted_onset(
     states: pd.DataFrame,
     states_of_exponent: pd.DataFrame,
 ) -> Finding:
-    """Distances (m/s²) of the onsets by dimension and by the exponent of Fig. 22 from chaos, and the largest step.
+    """Distances (m/s²) of the onsets by dimension and by the exponent of Fig. 22 from chaos.
 
-    Each onset is compared with the onset of chaos for its own initial condition. The step is that of the dimension
-    between neighbouring amplitudes with an estimate.
+    Each onset is compared with the onset of chaos for its own initial condition.
     """
-    states = states[states.z0 == states.z0.min()].sort_values("acceleration", kind="stable")
+    states = from_lowest_height(states)
     chaos, chaos_on_plate = (
         onset(table.acceleration, table.state == "chaos") for table in (states, states_of_exponent)
     )
-    quantities = []
-    for table, exponent in ((euler, euler_exponent), (converged, converged_exponent)):
-        # Both neighbours on the axis need an estimate: NaN for a missing one, which max() leaves out.
-        steps = table.sort_values("acceleration", kind="stable").dimension.diff().abs()
-        quantities.append(
-            {
-                "dimension": abs(dimension_onset(table) - chaos),
-                "exponent": abs(positive_onset(exponent) - chaos_on_plate),
-                "largest_step": float(steps.max()),
-            }
-        )
+    quantities = (
+        {"dimension": abs(dimension_onset(table) - chaos), "exponent": abs(positive_onset(exponent) - chaos_on_plate)}
+        for table, exponent in ((euler, euler_exponent), (converged, converged_exponent))
+    )
     unknown = converged[converged.dimension.isna()].status.value_counts()
     note = (
         "An onset is the amplitude with the fewest exceptions, which are chaos below it and none above it. The initial "
@@ -233,10 +231,30 @@ def predicted_onset(
         f"{format_amplitude(positive_onset(converged_exponent))}. By the paper's method, they show "
         f"{format_amplitude(dimension_onset(euler))} and {format_amplitude(positive_onset(euler_exponent))}: its box "
         f"counting gives {dimension_range(euler, states, 'second')} in the second state and "
-        f"{dimension_range(euler, states, 'chaos')} in chaos. Converged phase portraits have no known dimension at "
+        f"{dimension_range(euler, states, 'chaos')} in chaos. The dimension of a settled motion shows the onset, that "
+        "of a short trajectory does not. Converged phase portraits have no known dimension at "
         f"{unknown.sum()} of {len(converged)} amplitudes{describe_counts(unknown)}"
     )
     return Finding(*quantities, note)
+
+
+def fluctuation(*, euler: pd.DataFrame, converged: pd.DataFrame, states: pd.DataFrame) -> Finding:
+    """The largest change of the dimension between neighbouring amplitudes at which both motions are chaotic."""
+    states = from_lowest_height(states)
+
+    def largest_steps(table: pd.DataFrame) -> tuple[float, float]:
+        """The largest change within chaos and between any neighbours; NaN where a neighbour has no estimate."""
+        rows = with_settled_motion(table, states)
+        steps = rows.dimension.diff().abs()
+        return steps[rows.chaotic & rows.chaotic.shift(fill_value=False)].max(), steps.max()
+
+    steps = by_method(largest_steps, euler, converged)
+    note = (
+        f"Within chaos, the converged dimension changes by at most {steps['converged'][0]:.3f} between neighbouring "
+        f"amplitudes, and the dimension by the paper's method by {steps['euler'][0]:.2f}. At the edge of a periodic "
+        f"window, the converged dimension changes by up to {steps['converged'][1]:.2f}"
+    )
+    return Finding(*({"largest_step": float(within)} for within, _ in steps.values()), note)
 
 
 def describe_counts(counts: pd.Series) -> str:

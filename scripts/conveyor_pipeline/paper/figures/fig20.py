@@ -27,8 +27,8 @@ def plot(
         axes.plot(table.acceleration, table["lambda"], color=colour, linewidth=0.8)
         if len(between):
             axes.axvspan(between.min(), between.max(), color="0.88", linewidth=0.0, zorder=0)
-            place = {"xycoords": ("data", "axes fraction"), "va": "bottom", "ha": "center"}
-            style.note(axes, "different\nbasins", (0.5 * (between.min() + between.max()), 0.3), **place)
+            place = {"xycoords": ("data", "axes fraction"), "va": "bottom"}
+            style.note(axes, "shaded: different\nbasins", (between.max(), 0.3), (3, 0), **place)
         if first_positive is not None:
             axes.axvline(first_positive, color="black", linewidth=0.6, linestyle=":")
             style.note(axes, f"{first_positive:g} m/s²", (first_positive, 0.0), (-3, -9), ha="right")

@@ -70,7 +70,7 @@ def plot(
     style.note(diagram, text, (accumulation, 0.97), (-2, 0), ha="right", **top)
     if critical_acceleration is not None:
         middle = 0.5 * (critical_acceleration + accumulation)
-        style.note(below, "chaos in\nthe paper", (middle, 0.97), ha="center", **top)
+        style.note(below, "chaos by the\nestimate", (middle, 0.97), ha="center", **top)
     diagram.tick_params(labelbottom=False)
     below.set_ylim(LOWEST, 2.0 * spectrum.lambda_1.max())
     below.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
