@@ -136,6 +136,10 @@ def flattened(values: np.ndarray, quantum: float, gap: float) -> bool:
     return False
 
 
+# What a check yields: the fault of a line, with its number, or of the whole file.
+Fault = tuple[int, str] | str
+
+
 class Signal(NamedTuple):
     """A recording and what was fitted to it."""
 
@@ -165,7 +169,7 @@ class Signal(NamedTuple):
         return np.abs(self.fitted.amplitudes[:, 0])
 
 
-def gap_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+def gap_faults(recording: Recording) -> Iterator[Fault]:
     """A recording that consists of gaps."""
     intervals, is_gap = gaps_of(recording.time)
     if (missing := intervals[is_gap].sum()) > MOST_GAPS * intervals.sum():
@@ -176,12 +180,12 @@ def gap_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
         )
 
 
-def reading_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+def reading_faults(recording: Recording) -> Iterator[Fault]:
     """A column that is constant, has an outlier, has one value again and again, or is cut off."""
     for key, readings in zip(recording.columns, recording.readings, strict=True):
         name, scale = recording.names[key].lstrip("-"), UNITS[recording.unit]
         if np.ptp(readings) == 0.0:
-            yield None, f"has the same value in every line of the column {name}; check the sensor and its channel"
+            yield f"has the same value in every line of the column {name}; check the sensor and its channel"
             return
         sizes = np.abs(readings - np.median(readings))
         if sizes.max() > OUTLIER * np.quantile(sizes, 0.95) > 0.0:
@@ -208,7 +212,7 @@ def reading_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
             )
 
 
-def time_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
+def time_faults(recording: Recording) -> Iterator[Fault]:
     """Times that are too coarse for the samples."""
     equal = np.flatnonzero(np.diff(recording.time) == 0.0) + 1
     remedy = "export the time with more digits, or, if the sensor measures evenly, state excitation.rate (Hz)"
@@ -218,10 +222,10 @@ def time_faults(recording: Recording) -> Iterator[tuple[int | None, str]]:
             f"and {len(equal) - 1:,} further lines repeat the time of the line before; {remedy}",
         )
     elif recording.rate_error > MOST_RATE_ERROR:
-        yield None, f"has times so coarse that its rate is known to {100 * recording.rate_error:.2g} % only; {remedy}"
+        yield f"has times so coarse that its rate is known to {100 * recording.rate_error:.2g} % only; {remedy}"
 
 
-def interpolation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def interpolation_faults(signal: Signal) -> Iterator[Fault]:
     """Samples on straight lines between those that a slower sensor has measured."""
     recording = signal.recording
     # Few phases repeat the same few triples of samples, so that their shares are chance.
@@ -238,15 +242,14 @@ def interpolation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
         share = min(part.mean() for part in np.array_split(on, PIECES))
         if share > LINES and on.mean() > STRAIGHT * near.mean() and far.mean() > LINES:
             yield (
-                None,
                 f"has {100.0 * share:.0f} % of the samples of the column {recording.names[key].lstrip('-')} on "
                 "straight lines between the samples beside them, as where a slower sensor is interpolated, which makes "
-                "amplitudes and harmonics smaller; export the samples as they were measured",
+                "amplitudes and harmonics smaller; export the samples as they were measured"
             )
             return
 
 
-def subharmonic_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def subharmonic_faults(signal: Signal) -> Iterator[Fault]:
     """A fundamental that may be a weak subharmonic of the drive: every second (third, fourth) cycle differs."""
     frequency, sizes = signal.fitted.frequency, np.hypot(*np.abs(signal.fitted.amplitudes))
     order = 1 + int(np.argmax(sizes))
@@ -254,42 +257,38 @@ def subharmonic_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     cycle = CYCLES.get(order)
     if cycle and not signal.settings.get("frequency") and sizes[order - 1] > WEAK * sizes[0]:
         yield (
-            None,
             f"vibrates at {drive:.5g} Hz and, with {100.0 * sizes[0] / sizes[order - 1]:.2g} % of that, at "
             f"{frequency:.5g} Hz: set model.frequency: {frequency:.5g} if the drive has a strong harmonic; if it "
-            f"vibrates at {drive:.5g} Hz and every {cycle} cycle differs, record the plate without parts",
+            f"vibrates at {drive:.5g} Hz and every {cycle} cycle differs, record the plate without parts"
         )
         return
     order = round(frequency / signal.other[0]) if signal.other else 0
     if order in CYCLES and abs(order * signal.other[0] - frequency) < 1.0 / duration_of(signal.time):
         yield (
-            None,
             f"differs in every {CYCLES[order]} cycle: it vibrates at {frequency:.5g} Hz and, with "
             f"{signal.other[1]:.2g} m/s², at {signal.other[0]:.5g} Hz, as where parts bounce on the plate, or a magnet "
-            "is fed unevenly; record the plate without parts, and mend the feed of the magnet",
+            "is fed unevenly; record the plate without parts, and mend the feed of the magnet"
         )
 
 
-def count_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def count_faults(signal: Signal) -> Iterator[Fault]:
     """Too few cycles or too few samples in a cycle."""
     frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
     cycles, per_cycle = duration_of(signal.recording.time) * frequency, signal.rate / frequency
     if cycles < LEAST_CYCLES - 0.1:
-        yield None, f"holds {cycles:.2g} cycles of {frequency:.3g} Hz; record at least {LEAST_CYCLES}"
+        yield f"holds {cycles:.2g} cycles of {frequency:.3g} Hz; record at least {LEAST_CYCLES}"
     elif per_cycle < LEAST_PER_CYCLE - 0.1:
         repeated = " (without lines that repeat the one before)" if signal.recording.repeated else ""
         yield (
-            None,
             f"has {per_cycle:.2g} samples in a cycle of {frequency:.4g} Hz{repeated}, or the drive is faster and "
-            f"aliased; sample at least {LEAST_PER_CYCLE} times in a cycle, with the sensor's anti-aliasing filter",
+            f"aliased; sample at least {LEAST_PER_CYCLE} times in a cycle, with the sensor's anti-aliasing filter"
         )
     elif stated and stated > 0.5 * signal.rate:
         alias = abs(stated - round(stated / signal.rate) * signal.rate)
         if abs(alias - frequency) < 0.02 * frequency:
             yield (
-                None,
                 f"is sampled at {signal.rate:.4g} Hz, at which a drive of {stated:g} Hz (model.frequency) looks like "
-                f"one of {frequency:.3g} Hz (aliasing); sample at {LEAST_PER_CYCLE * stated:g} Hz or more",
+                f"one of {frequency:.3g} Hz (aliasing); sample at {LEAST_PER_CYCLE * stated:g} Hz or more"
             )
 
 
@@ -300,32 +299,29 @@ def or_harmonic(signal: Signal) -> str:
     return f", or the drive has a harmonic of order {order - 1} or {order + 1}, which another sampling rate shows"
 
 
-def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def sampling_faults(signal: Signal) -> Iterator[Fault]:
     """Samples that are lost, or whose times are wrong."""
     found = signal.modulation
     line = timing_line(signal.time, signal.fitted, found)
     if line and line[0] * signal.rate < 0.25 * signal.fitted.frequency and not is_sawtooth(found, line[0]):
         yield (
-            None,
             f"has a phase that swings by {line[1]:.2g} rad at {line[0] * signal.rate:.3g} Hz: the drive hunts, or the "
             "times are not those of the samples; keep a piece in which the drive runs steadily, or record the time of "
-            "each sample",
+            "each sample"
         )
     elif line:
         every = 1.0 / line[0] + 1.0
         right = signal.fitted.frequency * (every - 1.0) / every
         yield (
-            None,
             f"has a phase that swings by {line[1]:.2g} rad over {1.0 / line[0]:.4g} samples, as no vibration does: the "
             f"times are not those of the samples{or_harmonic(signal)}. If every {every:.3g}th sample is lost, the "
-            f"drive vibrates at {right:.5g} Hz; record without losses, or with the time of each sample",
+            f"drive vibrates at {right:.5g} Hz; record without losses, or with the time of each sample"
         )
     elif every := loss_in_step(signal.time, signal.recording.acceleration[:, : len(signal.time)], signal.fitted):
         yield (
-            None,
             f"has harmonics that vanish if every {every}th sample is lost, and then the drive vibrates at "
             f"{signal.fitted.frequency * (every - 1.0) / every:.5g} Hz; record without losses, or with the time of "
-            "each sample",
+            "each sample"
         )
     elif jump := signal.jump("imag"):
         yield (
@@ -336,28 +332,25 @@ def sampling_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
         )
     elif (lost := losses_of(signal.time, signal.fitted, found)).is_sure:
         yield (
-            None,
             f"has a phase that jumps, as where about {max(lost.count, 1.0):.0f} samples are lost and the times do not "
-            "show it, so that its frequency is wrong; record without losses, or with the time of each sample",
+            "show it, so that its frequency is wrong; record without losses, or with the time of each sample"
         )
     elif found.scatter > MOST_SCATTER:
         scatter = found.scatter / (2.0 * math.pi * signal.fitted.frequency)
         yield (
-            None,
             f"has times that differ by {scatter:.2g} s (standard deviation) from those of the samples; record the "
-            "time of each sample, or, if the sensor measures evenly, state excitation.rate (Hz)",
+            "time of each sample, or, if the sensor measures evenly, state excitation.rate (Hz)"
         )
 
 
-def sensor_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def sensor_faults(signal: Signal) -> Iterator[Fault]:
     """Two sensors in one file, line by line or one after the other."""
     recording, fitted = signal.recording, signal.fitted
     if half := alternates(signal.modulation):
         yield (
-            None,
             f"alternates from line to line between amplitudes that differ by {200.0 * half:.2g} %, as two sensors in "
             f"one file do, or one whose samples are lost regularly{or_harmonic(signal)}; keep the lines of one sensor, "
-            "and record without losses",
+            "and record without losses"
         )
     elif jump := signal.jump("real"):
         parts = slice(0, jump.sample), slice(jump.sample, len(signal.time))
@@ -375,26 +368,24 @@ def sensor_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
             )
 
 
-def mixture_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def mixture_faults(signal: Signal) -> Iterator[Fault]:
     """Lines of two sensors in any order."""
     recording, fitted = signal.recording, signal.fitted
     if (fitted.residual**2).mean() < recording.quanta.max() ** 2:  # steps of the converter make patterns, too
         return
     if difference := mixture_of(signal.time, recording.acceleration[:, : len(signal.time)], fitted):
         yield (
-            None,
             f"mixes lines with amplitudes that differ by {100.0 * difference:.2g} %, as two sensors in one file do; "
-            "keep the lines of one sensor",
+            "keep the lines of one sensor"
         )
     elif (spread := signal.modulation.spread) > MOST_SPREAD:
         yield (
-            None,
             f"has amplitudes that differ from line to line by {100.0 * spread:.2g} % (standard deviation), and phases "
-            "that do not, as two sensors in one file do; keep the lines of one sensor",
+            "that do not, as two sensors in one file do; keep the lines of one sensor"
         )
 
 
-def saturation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def saturation_faults(signal: Signal) -> Iterator[Fault]:
     """Peaks that are cut off, behind which there is noise."""
     recording, fitted = signal.recording, signal.fitted
     phases = np.sort(np.mod((recording.time - fitted.middle) * fitted.frequency, 1.0))
@@ -407,14 +398,13 @@ def saturation_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
         is_flat = flattened(readings, quantum, gap) or (is_fine and has_flat_tops(readings))
         if is_flat or is_cut_off(readings[: len(centred)], quantum, design):
             yield (
-                None,
                 f"has cut-off peaks in the column {recording.names[key].lstrip('-')}; record again with a larger range "
-                "of the sensor",
+                "of the sensor"
             )
             return
 
 
-def ambiguity_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def ambiguity_faults(signal: Signal) -> Iterator[Fault]:
     """Other times of the samples that are as likely, and with which the drive has another frequency.
 
     Buffers that are stamped faster than they were measured look like a faster drive, sampled in bursts.
@@ -427,10 +417,9 @@ def ambiguity_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
         found = first_fit(time, other.acceleration[:, :CHECKED], stated)[0].frequency
         if abs(found - frequency) > DIFFERENT / duration_of(time):
             yield (
-                None,
                 f"fits a drive of {frequency:.5g} Hz and, with other times of its samples, one of {found:.5g} Hz; "
                 f"state model.frequency, and excitation.rate: {(len(time) - 1) / np.ptp(time):.5g} if the sensor "
-                "measures evenly",
+                "measures evenly"
             )
             return
 
@@ -448,7 +437,7 @@ def is_unsteady(steady: Mapping[str, float]) -> bool:
     return steady["deviation"] > max(UNSTEADY, 3.0 * steady["deviation_of_noise"])
 
 
-def phase_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def phase_faults(signal: Signal) -> Iterator[Fault]:
     """A phase that wanders, so far that the fundamental gets smaller in some pieces, though the vibration does not."""
     steady = steadiness(signal.time, signal.fitted)
     size = size_deviation(signal, steady["pieces"])
@@ -456,33 +445,30 @@ def phase_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
     # Where a drive stops, the phase is that of noise.
     if turns or (steady["wander"] > MOST_WANDER and size < UNSTEADY):
         yield (
-            None,
             f"has a phase that wanders by {steady['wander']:.2g} rad (standard deviation) against "
             f"{signal.fitted.frequency:.4g} Hz: samples are lost, or the drive does not run steadily; record without "
-            "losses, or with the time of each sample, and keep a piece in which the drive runs steadily",
+            "losses, or with the time of each sample, and keep a piece in which the drive runs steadily"
         )
 
 
-def steadiness_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def steadiness_faults(signal: Signal) -> Iterator[Fault]:
     """An amplitude that changes, or a second vibration."""
     frequency, other = signal.fitted.frequency, signal.other
     steady = steadiness(signal.time, signal.fitted)
     if is_unsteady(steady):
         yield (
-            None,
             f"is not steady: its amplitude at {frequency:.4g} Hz varies by {100.0 * steady['deviation']:.2g} % "
-            "(standard deviation); keep a piece in which the drive runs steadily, and record one drive alone",
+            "(standard deviation); keep a piece in which the drive runs steadily, and record one drive alone"
         )
     elif other:
         yield (
-            None,
             f"vibrates at {frequency:.4g} Hz and, with {other[1]:.2g} m/s², at {other[0]:.4g} Hz, no multiple of it; "
             "record one drive alone, and use the sensor's anti-aliasing filter, because a harmonic above half the "
-            "sampling rate looks like such a line",
+            "sampling rate looks like such a line"
         )
 
 
-def frequency_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def frequency_faults(signal: Signal) -> Iterator[Fault]:
     """A frequency other than the stated one, or one that no conveyor has."""
     frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
     acceleration = float(np.hypot(*signal.sizes))
@@ -495,64 +481,59 @@ def frequency_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
         fits = [name for name, scale in scales.items() if LEAST_FREQUENCY < frequency / scale < MOST_FREQUENCY]
         remedy = f"set excitation.time_unit: {fits[0]} if that is the unit of the times, or " if fits else ""
         yield (
-            None,
             f"vibrates with {acceleration:.4g} m/s² at {frequency:.3g} Hz; the plate would move by {displacement:.3g} "
-            f"m: {remedy}sample faster if the drive is faster (aliasing)",
+            f"m: {remedy}sample faster if the drive is faster (aliasing)"
         )
     elif frequency > MOST_FREQUENCY:
         yield (
-            None,
             f"vibrates at {frequency:.5g} Hz, as no conveyor does; state the unit of its times as excitation.time_unit "
-            "(s, ms, µs, ns)",
+            "(s, ms, µs, ns)"
         )
     elif stated and abs(frequency / stated - 1.0) > OTHER_FREQUENCY:
         factor = frequency / stated
         lost = f", if every {factor / (factor - 1.0):.3g}th sample is lost," if 1.0 < factor < 2.0 else ""
         yield (
-            None,
             f"vibrates at {frequency:.5g} Hz, but model.frequency is {stated:g}; its times are wrong by a factor of "
             f"{factor:.5g}{lost} and its rate would be {signal.rate / factor:.5g} Hz, or set model.frequency: "
-            f"{frequency:.5g} if the drive runs at that frequency",
+            f"{frequency:.5g} if the drive runs at that frequency"
         )
 
 
-def unit_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def unit_faults(signal: Signal) -> Iterator[Fault]:
     """A mean that is not gravity, or an amplitude that no conveyor has."""
     unit, acceleration = signal.recording.unit, float(np.hypot(*signal.sizes))
     gravity = gravity_of(signal.fitted, signal.settings.get("inclination", 0.0))
     shown = f"vibrates with {acceleration / UNITS[unit]:.4g} {unit}, which is {acceleration:.4g} m/s²"
     if fault := size_fault(gravity, acceleration, unit):
-        yield None, fault
+        yield fault
     elif acceleration > MOST_ACCELERATION:
-        yield None, f"{shown}; no conveyor does: state another excitation.unit ({', '.join(UNITS)})"
+        yield f"{shown}; no conveyor does: state another excitation.unit ({', '.join(UNITS)})"
     elif acceleration < LEAST_ACCELERATION:
         remedy = f"state another excitation.unit ({', '.join(UNITS)}; not a voltage), and record while the drive is on"
-        yield None, f"{shown}; that moves no part: {remedy}"
+        yield f"{shown}; that moves no part: {remedy}"
     if not fault and (fault := direction_fault(signal.recording, gravity, signal.settings)):
-        yield None, fault
+        yield fault
 
 
-def share_faults(signal: Signal) -> Iterator[tuple[int | None, str]]:
+def share_faults(signal: Signal) -> Iterator[Fault]:
     """A fundamental that is missing, or too weak for its harmonics."""
     fitted, sizes, directions = signal.fitted, signal.sizes, list(DIRECTIONS.values())
     noise = np.sqrt(4.0 * (fitted.residual**2).mean(axis=1) / fitted.residual.shape[1])
     for axis, direction in enumerate(directions):
         if sizes[axis] < max(NO_FUNDAMENTAL * np.hypot(*sizes), 4.0 * noise[axis]):
             yield (
-                None,
                 f"shows no vibration {direction} at {fitted.frequency:.4g} Hz ({sizes[axis]:.2g} m/s²), to which "
-                "shares of harmonics and phases refer; check excitation.columns and excitation.mount",
+                "shares of harmonics and phases refer; check excitation.columns and excitation.mount"
             )
             return
     shares = np.abs(fitted.amplitudes) / sizes[:, None]
     if shares.max() > MOST_SHARE:
         axis, place = np.unravel_index(np.argmax(shares), shares.shape)
         yield (
-            None,
             f"vibrates {directions[axis]} {shares[axis, place]:.3g} times as much at "
             f"{(place + 1) * fitted.frequency:.4g} Hz as at {fitted.frequency:.4g} Hz, to which shares of harmonics "
             f"refer; model.harmonics take shares up to {MOST_SHARE:g}: check excitation.columns and excitation.mount, "
-            "and record one drive alone",
+            "and record one drive alone"
         )
 
 
@@ -602,7 +583,7 @@ def first_faults(subject: Any, groups: tuple) -> list[tuple[int | None, str]]:
     """Line (None for the whole file) and description of each fault that the first group with faults finds."""
     for group in groups:
         if faults := [fault for check in group for fault in check(subject)]:
-            return faults
+            return [fault if isinstance(fault, tuple) else (None, fault) for fault in faults]
     return []
 
 
@@ -613,7 +594,7 @@ def checked(table: Any, settings: Mapping[str, Any]) -> Recording:
     """
     raw = parse(table, settings)
     # A reading that is repeated would look like a value at which a sensor stays.
-    if faults := list(reading_faults(keep(raw, ~repeats(raw)))):
+    if faults := first_faults(keep(raw, ~repeats(raw)), ((reading_faults,),)):
         raise table.error(faults)
     recording = resolve(raw)
     faults = first_faults(recording, OF_TIMES) or first_faults(signal_of(recording, settings), OF_SIGNAL)
