@@ -1,4 +1,4 @@
-"""The script of every rule that makes tables or pages: read its inputs, call a function `make`, write its results.
+"""The script of rules that make tables, figures or pages: read the inputs, call a function `make`, write the results.
 
 The module of a stage has the function `make`, and TABLES, the schemas of its tables by kind. The arguments of `make`
 are

@@ -81,8 +81,8 @@ def test_the_line_of_fig_15_follows_gravity_normal_to_the_track(inclination):
 def test_a_picture_and_its_caption_do_not_wait_for_the_compiler():
     """Most of them need only names and units of the library; `simulate` is imported on first use."""
     code = (
-        "import sys, conveyor; from conveyor_pipeline import draw, make; "
-        "from conveyor_pipeline.figures import captions; "
+        "import sys, conveyor; from conveyor_pipeline import make; "
+        "from conveyor_pipeline.figures import captions, plots; "
         "from conveyor_pipeline.paper.figures import fig22; before = 'numba' in sys.modules; "
         "from conveyor import simulate; print(before, 'numba' in sys.modules, hasattr(conveyor, 'nothing'))"
     )

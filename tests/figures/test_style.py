@@ -5,19 +5,18 @@ import pandas as pd
 from conveyor_pipeline.figures import style
 
 
-def test_files_of_a_figure_have_one_layout(tmp_path):
-    """The layout of a page, although the layout of a picture alone would differ slightly."""
+def test_files_of_a_figure_have_the_layout_of_a_page():
+    """The layout of a picture alone would differ slightly."""
 
-    def position(*names):
+    def position(write):
         with style.applied():
             figure = style.figure(50.0, 40.0)
             axes = figure.subplots()
             axes.set(xlabel="time in s", ylabel="height in mm")
-            style.save(figure, [str(tmp_path / name) for name in names])
+            write(figure)
         return axes.get_position().bounds
 
-    page = position("a.pdf")
-    assert position("b.png") == position("c.pdf", "c.png") == page
+    assert position(style.encode) == position(style.lay_out)
 
 
 def test_a_legend_of_four_states_fits_a_column():

@@ -8,9 +8,9 @@ import matplotlib.text
 import pytest
 from matplotlib.figure import Figure
 
+from conveyor_pipeline.common import tables
 from conveyor_pipeline.config.tables import kind_of
-from conveyor_pipeline.draw import draw
-from conveyor_pipeline.figures import style
+from conveyor_pipeline.figures import plots, style
 from made import FIGURES, RESULTS, ROOT, entries
 
 ENTRIES = entries()
@@ -73,12 +73,11 @@ class Drawn(NamedTuple):
 def draw_again(name):
     """The figure `name`, drawn from its tables."""
     entry = ENTRIES[name]
-    paths, expected = {}, {}
-    for role, reference in entry["tables"].items():
-        section, table = reference.split("/")
-        paths[role] = RESULTS / (f"{table}.parquet" if section == "results" else f"{reference}.parquet")
-        expected[paths[role]] = [kind_of(reference)]
-    return draw(name, paths, expected, entry.get("settings", {}) | entry.get("marks", {}))
+    read = {
+        role: tables.read(RESULTS / f"{reference.removeprefix('results/')}.parquet", kind_of(reference))
+        for role, reference in entry["tables"].items()
+    }
+    return plots.draw(name, entry.get("settings", {}) | entry.get("marks", {}), **read)
 
 
 @pytest.fixture(scope="module", params=ENTRIES)
@@ -141,5 +140,5 @@ def test_pages_have_embedded_fonts_and_fine_maps(drawn):
 @pytest.mark.skipif(RESULTS == ROOT / "results", reason="half a minute; the pages of the reduced config show as much")
 @pytest.mark.parametrize("name", ENTRIES)
 def test_pages_equal_the_pages_of_another_process(name, tmp_path):
-    style.save(draw_again(name), [str(tmp_path / "page.pdf")])
+    (tmp_path / "page.pdf").write_bytes(style.encode(draw_again(name))["pdf"])
     assert (tmp_path / "page.pdf").read_bytes() == (FIGURES / f"{name}.pdf").read_bytes()

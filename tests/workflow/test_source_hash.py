@@ -106,7 +106,7 @@ def test_a_patch_of_python_reruns_nothing():
 def test_every_package_behind_a_number_or_a_picture_counts():
     """They are found from imports, without a list: pandas, and indirectly llvmlite and pillow."""
     _, packages = source_hash.closure(
-        *below_package("draw", "paper/figures/fig22", "paper/fit/regressions", "paper/sweeps/shards")
+        *below_package("figures/plots", "paper/figures/fig22", "paper/fit/regressions", "paper/sweeps/shards")
     )
     names = {one.split("==")[0] for one in source_hash.versions(packages)}
     assert {

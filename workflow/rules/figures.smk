@@ -15,11 +15,11 @@ rule plot:
     wildcard_constraints:
         figure=one_of([*FIGURES, *NO_FIGURES]),
     params:
+        **stage("conveyor_pipeline.figures.plots", scripts=lambda wildcards: figure_modules(wildcards.figure)),
         settings=lambda wildcards: settings_of_figure(wildcards.figure),
-        expected=expected,
-        code=lambda wildcards: code_of("conveyor_pipeline/draw", *figure_modules(wildcards.figure)),
+        figure="{figure}",
     script:
-        "../../scripts/conveyor_pipeline/draw.py"
+        "../../scripts/conveyor_pipeline/make.py"
 
 
 # On a cluster, a job of its own would wait longer than it runs.

@@ -4,6 +4,7 @@ import os
 import string
 from collections.abc import Iterable
 from contextlib import AbstractContextManager
+from io import BytesIO
 
 # Figures are only written to files. Matplotlib reads this variable on import. It fails if the variable names a backend
 # that is not installed, as in the terminal of Jupyter.
@@ -235,10 +236,12 @@ def lay_out(figure: Figure) -> None:
         axes.set_position([round(number, DIGITS) for number in axes.get_position(original=True).bounds])
 
 
-def save(figure: Figure, paths: Iterable[str]) -> None:
-    """Write a figure to PDF or PNG files without dates, so that equal figures have equal bytes."""
+def encode(figure: Figure) -> dict[str, bytes]:
+    """A figure as PDF and as PNG, without dates, so that equal figures have equal bytes."""
+    files = {"pdf": BytesIO(), "png": BytesIO()}
     with applied():
         lay_out(figure)
-        for path in paths:
-            metadata = {"CreationDate": None} if path.endswith(".pdf") else None
-            figure.savefig(path, dpi=RESOLUTION, metadata=metadata)
+        for form, file in files.items():
+            metadata = {"CreationDate": None} if form == "pdf" else None
+            figure.savefig(file, format=form, dpi=RESOLUTION, metadata=metadata)
+    return {form: file.getvalue() for form, file in files.items()}

@@ -35,12 +35,12 @@ def draw_map(axes: Axes, shapes: pd.DataFrame, motion: str) -> None:
         right = abs(row.difference) <= RIGHT
         colour = COLOURS[0] if right else COLOURS[2]
         axes.plot(
-            row.length, row.height, "s", color=colour, markerfacecolor=colour if right else "none", markersize=15.0
+            row.length, row.height, "s", color=colour, markerfacecolor=colour if right else "none", markersize=17.0
         )
         if np.isfinite(row.difference):
             text = f"{100.0 * row.difference:+.0f}" if row.difference < 1.0 else f"×{1.0 + row.difference:.2g}"
             axes.text(
-                row.length, row.height, text, ha="center", va="center", color="white" if right else "black", fontsize=6
+                row.length, row.height, text, ha="center", va="center", color="white" if right else "black", fontsize=7
             )
     axes.set(xscale="log", yscale="log", xlabel=r"length in $g\,\cos\alpha/\omega^2$", title=TITLES[motion])
     axes.margins(0.12)
