@@ -10,8 +10,8 @@ from conveyor_pipeline.paper.claims.about_proofs import lowest_fold
 SHADE = "0.93"
 # Colours of the exponents of the attractors that are followed over the amplitude; the upper branch hides the lower one.
 BRANCHES = {
-    "down": ("#56B4E9", "converged, falling $\\hat{a}$"),
-    "up": (style.CONVERGED, "converged, rising $\\hat{a}$"),
+    "down": ("#56B4E9", "converged, falling"),
+    "up": (style.CONVERGED, "converged, rising"),
 }
 LOWEST = -30.0  # 1/s, end of the axis of the exponents
 
@@ -70,7 +70,7 @@ def plot(
     style.note(diagram, text, (accumulation, 0.97), (-2, 0), ha="right", **top)
     if critical_acceleration is not None:
         middle = 0.5 * (critical_acceleration + accumulation)
-        style.note(below, "chaos by the\nestimate", (middle, 0.97), ha="center", **top)
+        style.note(below, "chaos by\nestimate", (middle, 0.97), ha="center", **top)
     diagram.tick_params(labelbottom=False)
     below.set_ylim(LOWEST, 2.0 * spectrum.lambda_1.max())
     below.set_xlim(strobes.acceleration.min(), strobes.acceleration.max())
