@@ -4,6 +4,7 @@ import json
 from itertools import pairwise
 
 import numpy as np
+import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
@@ -48,6 +49,27 @@ def test_fields_carry_units_and_nan_becomes_null(path):
     # For readers that do not show fields, such as DuckDB.
     assert json.loads(written.schema.metadata[b"units"]) == units
     assert written["lambda"].null_count == 1
+
+
+def test_no_flipped_bit_becomes_another_number(path):
+    """Each bit of the pages of a small table in turn: an error, or the numbers that were written."""
+    tables.write(path, made())
+    sound, written = path.read_bytes(), tables.read(path, "estimates")
+    metadata = pq.read_metadata(path)
+    end = max(
+        metadata.row_group(0).column(place).data_page_offset + metadata.row_group(0).column(place).total_compressed_size
+        for place in range(metadata.num_columns)
+    )
+    found = 0
+    for bit in range(8 * 4, 8 * end):
+        damaged = bytearray(sound)
+        damaged[bit // 8] ^= 1 << bit % 8
+        path.write_bytes(damaged)
+        try:
+            pd.testing.assert_frame_equal(tables.read(path, "estimates"), written)
+        except tables.TableError:
+            found += 1
+    assert found > 0
 
 
 def test_no_negative_zero(path):

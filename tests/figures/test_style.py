@@ -1,6 +1,7 @@
 """Saving of figures."""
 
 import pandas as pd
+import pytest
 
 from conveyor_pipeline.figures import style
 
@@ -17,6 +18,17 @@ def test_files_of_a_figure_have_the_layout_of_a_page():
         return axes.get_position().bounds
 
     assert position(style.encode) == position(style.lay_out)
+
+
+@pytest.mark.parametrize("heights", [[1e-4], [0.0], [0.0, 1e-4]])
+def test_a_map_with_one_value_on_an_axis_is_not_empty(heights):
+    table = pd.DataFrame([(x, z) for x in (1.0, 2.0) for z in heights], columns=["psi0", "z0"]).assign(state="chaos")
+    with style.applied():
+        axes = style.figure(50.0, 40.0).subplots()
+        style.state_map(axes, table, "z0", "psi0")
+    (mesh,) = axes.collections
+    low, high = mesh.get_coordinates()[0, [0, -1], 0]
+    assert low < min(heights) and high > max(heights)
 
 
 def test_a_legend_of_four_states_fits_a_column():

@@ -1,6 +1,7 @@
 """The workflow in another folder, and as a module of another workflow."""
 
 import re
+import shutil
 import subprocess
 
 import pytest
@@ -194,6 +195,12 @@ def test_a_module_from_a_git_repository(tmp_path, repository):
     snakemake(tmp_path, "figures/mine/fig01.pdf")
     assert (tmp_path / "figures/mine/fig01.pdf").is_file()
     assert "Nothing to be done" in snakemake(tmp_path, "figures/mine/fig01.pdf")
+    # A checkout without its files, as a clean-up of old files leaves it, is made again.
+    (checkout,) = (tmp_path / ".snakemake/conveyor").iterdir()
+    shutil.rmtree(checkout)
+    checkout.mkdir()
+    snakemake(tmp_path, "--dry-run", "figures/mine/fig01.pdf")
+    assert (checkout / "Snakefile").is_file()
 
 
 def test_the_snakefile_alone_names_the_entry_for_git(tmp_path, repository):

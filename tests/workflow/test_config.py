@@ -24,7 +24,7 @@ WRONG = [
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),
-    ({"model": {"frequency": 0.05}}, "it follows from the model: are model.frequency and model.angle right?"),
+    ({"model": {"frequency": 0.05}}, "SI units follow from model.frequency and model.angle: are they right?"),
     ({"model": {"stiffness": "500 N/mm"}}, "'500 N/mm' is not in the unit of the contact law; give it in N/m^1.5"),
     ({"model": {"angle": "120 deg"}}, "model.angle = '120 deg' should be at most 1.5708 (rad)"),
     (
@@ -56,6 +56,10 @@ WRONG = [
     ({"sweeps": {"mine": {"axes": {"z0": {"start": 0.0}}}}}, "sweeps.mine.axes.z0.stop is missing"),
     ({"sweeps": {"mine": {"duration": 1.0}}}, "sweeps.mine.axes is missing"),
     ({"sweeps": {"mine": {**MINE, "model": {"z0": 1.0e-4}}}}, "sweeps.mine.model.z0 is an axis of this entry too"),
+    (
+        {"sweeps": {"amplitudes": {"axes": {"damping": [0.1, 0.3]}}}},
+        "sweeps.amplitudes.axes.damping is no axis of this entry of the defaults",
+    ),
     ({"sweeps": {"mine": {**MINE, "duration": 0}}}, "sweeps.mine.duration = 0 should be more than 0 (s)"),
     ({"sweeps": {"mine": {**MINE, "needs": "speed"}}}, "sweeps.mine.needs = 'speed' should be 'feeding' or 'vertical'"),
     ({"sweeps": {"my sweep": MINE}}, "sweeps has the unknown name 'my sweep'; give a name of letters"),

@@ -132,6 +132,24 @@ def test_snakemake_names_file_line_and_key_of_a_wrong_value(project, tmp_path):
     assert "mine.yaml:6: sweeps.two.axes is missing" in run.stdout
 
 
+def test_a_wrong_value_of_the_command_line_is_not_blamed_on_a_file(tmp_path):
+    file = tmp_path / "mine.yaml"
+    file.write_text("prefix: mine\nmodel: {mass: 1 g, damping: -1}\n")
+    with pytest.raises(ConfigError) as error:
+        load_config([file], {"model": {"mass": "0.3 mm"}})
+    assert "\n--config: model.mass = '0.3 mm' has a unit of another dimension" in str(error.value)
+    assert f"\n{file}:2: model.damping = -1 should be" in str(error.value)
+
+
+def test_overlays_of_two_conveyors_are_not_mixed(tmp_path):
+    files = [tmp_path / name for name in ("coarse.yaml", "one.yaml", "two.yaml")]
+    for file, text in zip(files, ("sweeps: {}", "model: {mass: 2 g}", "model: {damping: 0.2}"), strict=True):
+        file.write_text(f"prefix: {file.stem}\n{text}\n")
+    assert load_config(files[:2], {}).config["prefix"] == "one"
+    with pytest.raises(ConfigError, match=r"given for one \(.*one.yaml\) and two \(.*; run one command for each"):
+        load_config(files, {})
+
+
 def test_nested_values_of_the_command_line_are_an_overlay(project, tmp_path):
     """They are merged over the overlay files, and texts of numbers, as Snakemake passes them, are numbers."""
     overlay = {"prefix": "nested", "sweeps": {"amplitudes": {"model": {"mass": 0.002}, "duration": 0.02}}}
@@ -161,12 +179,17 @@ def test_overlays_can_be_checked_without_snakemake(tmp_path):
 def test_the_whole_config_is_shown_with_origins(tmp_path):
     """Also of values that YAML repeats through an anchor."""
     file = tmp_path / "mine.yaml"
-    file.write_text("prefix: mine\nsweeps:\n  heights:\n    axes: {z0: {num: 41}}\n  one: {axes: {z0: [0, 1e-4]}}\n")
+    file.write_text(
+        "prefix: mine\nsweeps:\n  heights:\n    axes: {z0: {num: 41}}\n  one: {axes: {z0: [0, 1e-4]}}\n"
+        "model:\n  friction: 0.2\n  <<: {damping: 0.2, friction: 0.3}\n"
+    )
     show = [*CHECK, "--show", str(file)]
     run = subprocess.run(show, cwd=ROOT, env=WITH_SCRIPTS, capture_output=True, text=True, check=True)
     shown = dict(line.split(" = ", 1) for line in run.stdout.splitlines())
     assert shown["prefix"] == f'"mine"    # {file}:1'
     assert shown["sweeps.heights.axes.z0.num"] == f"41    # {file}:4"
+    assert shown["model.friction"] == f"0.2    # {file}:7"
+    assert shown["model.damping"] == f"0.2 N s/m    # {file}:8"
     assert shown["sweeps.one.axes.z0"] == f"[0.0, 0.0001] m    # {file}:5"
     assert re.fullmatch(r"0\.0004 m    # config/defaults/paper/sweeps\.yaml:\d+", shown["sweeps.heights.axes.z0.stop"])
     assert re.fullmatch(

@@ -29,6 +29,9 @@ HARMONIC = {"order": 2, "along": 0.1, "along_phase": 0.0, "normal": 0.1, "normal
         ({"prefix": "mine", "model": {"static_friction": 0.2}}, False),
         ({"prefix": "mine", "model": {"harmonics": [HARMONIC]}}, False),
         ({"prefix": "mine", "model": {"tension": "clip"}}, False),
+        ({"prefix": "mine", "sweeps": {"map_height": {"model": {"frequency": 30.0}}}}, False),
+        ({"prefix": "mine", "orbits": {"model": {"damping": 0.2}}}, False),
+        ({"prefix": "mine", "sweeps": {"own": {"axes": {"z0": [0.0]}, "model": {"damping": 0.2}}}}, True),
     ],
 )
 def test_another_value_makes_another_conveyor_and_a_restated_default_does_not(overlay, is_paper):
@@ -47,6 +50,12 @@ def test_another_model_without_a_prefix_is_refused(model, named):
     with pytest.raises(ConfigError, match=rf"be used:\n{re.escape(named)} differs.* prefix: mine"):
         load({"model": model})
     assert problems(merged(read_config(), {"prefix": "mine", "model": model})) == []
+
+
+def test_another_model_of_an_entry_of_the_paper_without_a_prefix_is_refused():
+    """Its tables would lie, under the paper's verdicts, in the paper's folder."""
+    with pytest.raises(ConfigError, match=r"be used:\nsweeps.amplitudes.model.damping = 0.05 differs.* prefix: mine"):
+        load({"sweeps": {"amplitudes": {"model": {"damping": 0.05}}}})
 
 
 @pytest.mark.parametrize("name", EXAMPLES)

@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arguments import check_choice, check_count, check_number, check_parameter
-from ..parameters import HARMONIC, MOST_HARMONICS, PARAMETERS, TENSION_MODES
+from ..parameters import HARMONIC, MOST_HARMONICS, PARAMETERS, RANGES, TENSION_MODES, UNITS
 from .jit import compiled_inline
 
 ACCELERATION, ANGLE, FREQUENCY, PSI0, STIFFNESS, DAMPING, FRICTION, MASS = range(8)
@@ -144,8 +144,8 @@ class Start:
 
     def __post_init__(self):
         if not isinstance(self.z, str) or self.z != "conveyor":
-            check_parameter("z0", self.z)
-        check_parameter("vz0", self.vz)
+            check_number("z", self.z, *RANGES["z0"], UNITS["z0"])
+        check_number("vz", self.vz, *RANGES["vz0"], UNITS["vz0"])
 
 
 def pack_harmonics(harmonics: Sequence[Harmonic]) -> list[float]:

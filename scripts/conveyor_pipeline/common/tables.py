@@ -87,6 +87,7 @@ def encoding(schema: pa.Schema) -> dict[str, Any]:
         "compression_level": LEVEL,
         "use_byte_stream_split": floats,
         "use_dictionary": others,
+        "write_page_checksum": True,
     }
 
 
@@ -135,7 +136,7 @@ def gather(
 def read_blocks(shards: Sequence[str | Path], settings: dict) -> Iterator[pa.Table]:
     """The row groups of shards, one by one, with the settings of their table."""
     for path in shards:
-        with pq.ParquetFile(path) as file:
+        with pq.ParquetFile(path, page_checksum_verification=True) as file:
             for number in range(file.num_row_groups):
                 block = file.read_row_group(number)
                 yield block.replace_schema_metadata(block.schema.metadata | {SETTINGS: json.dumps(settings)})
@@ -160,7 +161,7 @@ def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFr
     """The table at `path` with its settings in `attrs`; TableError as in `check`, or if the file is damaged."""
     check(path, kind, settings)
     try:
-        return pd.read_parquet(path)
+        return pd.read_parquet(path, page_checksum_verification=True)
     except (pa.ArrowException, OSError) as error:
         raise TableError(f"{path} is damaged ({error}); {REMEDY}") from error
 

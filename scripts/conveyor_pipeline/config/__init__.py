@@ -5,12 +5,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from conveyor_pipeline.config.checks import default_config, problems
+from conveyor_pipeline.config.checks import default_config, other_models, problems
 from conveyor_pipeline.config.derived import with_derived
 from conveyor_pipeline.config.entries import MEASURED_FILES, by_methods, with_tighter
 from conveyor_pipeline.config.errors import ConfigError, type_problems
 from conveyor_pipeline.config.files import merge, name_lines, read
-from conveyor_pipeline.config.model import MODEL, is_same_model
+from conveyor_pipeline.config.model import MODEL
 from conveyor_pipeline.config.scales import to_si
 
 __all__ = ["ConfigError", "Loaded", "canonical", "load_config", "problems"]
@@ -21,7 +21,7 @@ class Loaded(NamedTuple):
 
     config: dict  # canonical, with the tables of all methods and of tighter tolerances
     merged: dict  # canonical, as files and command line give it
-    is_paper: bool  # whether the model is the paper's, so that its claims, remarks and marks apply
+    is_paper: bool  # whether all models are the paper's, so that its claims, remarks and marks apply
     stated: dict  # what overlays and command line state, as they give it
 
 
@@ -46,6 +46,18 @@ def name_measurements(config: dict, files: Sequence[str | Path], contents: list[
                 config[section][key] = os.path.join(os.path.dirname(file), own[key])
 
 
+def check_one_conveyor(files: Sequence[str | Path], contents: list[dict]) -> None:
+    """ConfigError for overlays of two conveyors, which would become one mixed conveyor."""
+    named = {
+        str(content["prefix"]): file
+        for file, content in zip(files, contents, strict=True)
+        if content.get("prefix") and content.get("model")
+    }
+    if len(named) > 1:
+        conveyors = " and ".join(f"{name} ({file})" for name, file in named.items())
+        raise ConfigError([f"prefix and model are given for {conveyors}; run one command for each conveyor"])
+
+
 def load_config(overlay_files: Sequence[str | Path], config: dict) -> Loaded:
     """The config of a run; ConfigError says what is wrong with it in at most six lines.
 
@@ -56,15 +68,16 @@ def load_config(overlay_files: Sequence[str | Path], config: dict) -> Loaded:
     config : Snakemake's merged config. As a module of another workflow, it is the only overlay
     """
     paper, overlays = default_config(), [read(file) for file in overlay_files]
+    check_one_conveyor(overlay_files, overlays)
     whole = merge(paper, *overlays, config)
     if errors := type_problems(whole):
-        raise ConfigError(name_lines(errors, overlay_files))
+        raise ConfigError(name_lines(errors, overlay_files, config))
     name_measurements(whole, overlay_files, overlays)
     stated = merge(*overlays, config)
     if errors := problems(whole, paper, stated):
-        raise ConfigError(name_lines(errors, overlay_files))
+        raise ConfigError(name_lines(errors, overlay_files, config))
     for section, key in MEASURED_FILES.items():
         if key not in whole[section]:
             whole["figures_on_request"].pop(section, None)
     merged = canonical(whole)
-    return Loaded(with_tighter(by_methods(merged)), merged, is_same_model(merged["model"], paper["model"]), stated)
+    return Loaded(with_tighter(by_methods(merged)), merged, not any(other_models(merged, paper)), stated)

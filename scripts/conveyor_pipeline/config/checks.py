@@ -44,13 +44,25 @@ STEPS_IN_A_CYCLE = 20  # smallest number of steps that resolves an excitation cy
 def prefix(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     if config["prefix"].lower() in RESERVED:  # macOS does not distinguish Logs from logs
         yield f"prefix = {config['prefix']!r} is a folder of the default results; give another name"
-    if not config["prefix"] and not is_same_model(config["model"], defaults["model"]):
-        model, paper = config["model"], defaults["model"]
-        name = next(name for name, value in model.items() if name not in paper or value != paper[name])
+    if not config["prefix"] and (changed := next(other_models(config, defaults), None)):
         yield (
-            f"model.{name} = {model[name]!r} differs from the paper's model, whose results have no prefix; give the "
-            "config one, such as prefix: mine"
+            f"{changed} differs from the paper's model, whose results have no prefix; give the config one, such as "
+            "prefix: mine"
         )
+
+
+def other_models(config: dict, defaults: dict) -> Iterator[str]:
+    """The first difference of each section or entry of the paper whose model is not the paper's, as KEY = VALUE."""
+    entries = {f"{section}.{name}": (section, name) for section in ENTRIES for name in defaults[section]}
+    sections = {key: (config[section][name], defaults[section][name]) for key, (section, name) in entries.items()}
+    sections |= {name: (config[name], defaults[name]) for name in ("orbits", "attractors") if name in defaults}
+    models = {"model": ({}, {})}
+    models |= {f"{key}.model": (own.get("model", {}), paper.get("model", {})) for key, (own, paper) in sections.items()}
+    for key, differences in models.items():
+        own, paper = (one["model"] | differing for one, differing in zip((config, defaults), differences, strict=True))
+        if not is_same_model(own, paper):
+            name = next(name for name, value in own.items() if name not in paper or value != paper[name])
+            yield f"{key}.{name} = {own[name]!r}"
 
 
 def measured_files(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
@@ -80,8 +92,14 @@ def methods(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 def axes(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     for section in ENTRIES:
         for name, entry in config[section].items():
-            for axis in sorted(set(entry.get("axes", ())) & set(entry.get("model", ()))):
+            axes = set(entry.get("axes", ()))
+            for axis in sorted(axes & set(entry.get("model", ()))):
                 yield f"{section}.{name}.model.{axis} is an axis of this entry too; keep one of them"
+            for axis in sorted(axes - set(defaults[section].get(name, entry).get("axes", ()))):
+                yield (
+                    f"{section}.{name}.axes.{axis} is no axis of this entry of the defaults, whose figures and claims "
+                    "would mix its values; give the entry a name of your own"
+                )
             if section != "sweeps" and "axes" in entry:
                 rows = count_points(entry["axes"]) * count_values(entry.get("times") or entry.get("scan") or [None])
                 if rows > LARGEST_TABLE:
@@ -246,7 +264,7 @@ def problems(config: dict, defaults: dict | None = None, stated: dict | None = N
         return faults
     # Converted values have the limits of their SI units, and a partial axis has what the default gives.
     if errors := type_problems(typed := to_si(typed)):
-        return [f"{error}; it follows from the model: are model.frequency and model.angle right?" for error in errors]
+        return [f"{error}; SI units follow from model.frequency and model.angle: are they right?" for error in errors]
     if faults := list(faults_of_derived(typed, defaults, stated or {})):
         return faults
     typed = with_derived(typed)

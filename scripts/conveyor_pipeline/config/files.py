@@ -7,6 +7,7 @@ as 90, and 1e-8 as text. So overlays are read again here.
 import itertools
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
@@ -51,21 +52,38 @@ def find_lines(file: str | Path) -> dict[tuple[str | int, ...], str]:
     """FILE:LINE of the keys and list items of a config file, by their paths."""
 
     def lines_below(node: Node, path: tuple) -> Iterator[tuple[tuple, str]]:
-        pairs = node.value if isinstance(node, MappingNode) else ()
+        # Merged keys (<<) first, because the node's own ones replace them.
+        pairs = sorted(node.value, key=lambda pair: pair[0].value != "<<") if isinstance(node, MappingNode) else ()
         items = enumerate(node.value) if isinstance(node, SequenceNode) else ()
         named = itertools.chain(
             ((key.value, key, value) for key, value in pairs), ((place, item, item) for place, item in items)
         )
         for part, marked, value in named:
-            yield (*path, part), f"{file}:{marked.start_mark.line + 1}"
-            yield from lines_below(value, (*path, part))
+            if part == "<<":
+                yield from lines_below(value, path)
+            else:
+                yield (*path, part), f"{file}:{marked.start_mark.line + 1}"
+                yield from lines_below(value, (*path, part))
 
     return dict(lines_below(YAML(typ="safe").compose(Path(file).read_text(encoding="utf-8")), ()))
 
 
-def name_lines(errors: Sequence[str], files: Sequence[str | Path]) -> list[str]:
-    """Errors that begin with a key, each with FILE:LINE of this key in the last file that has it."""
+def paths_of(config: Any, path: tuple = ()) -> Iterator[tuple]:
+    """The paths of all keys and list items of a config."""
+    items = config.items() if isinstance(config, dict) else enumerate(config) if isinstance(config, list) else ()
+    for part, value in items:
+        yield (*path, part)
+        yield from paths_of(value, (*path, part))
+
+
+def name_lines(errors: Sequence[str], files: Sequence[str | Path], config: dict) -> list[str]:
+    """Errors that begin with a key, each with the place of this key: FILE:LINE in the last file that has it.
+
+    config : values that replace those of the files, of the option --config; without files, of another workflow
+    """
     lines = {format_key(path): line for file in files for path, line in find_lines(file).items()}
+    if files:
+        lines |= {format_key(path): "--config" for path in paths_of(config)}
     named = []
     for error in errors:
         key = error.partition(" ")[0]

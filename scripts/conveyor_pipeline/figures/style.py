@@ -126,6 +126,11 @@ def note(axes: Axes, text: str, place: tuple, offset: tuple[float, float] = (0.0
     axes.annotate(text, place, xytext=offset, textcoords="offset points", size=7.0, **options)
 
 
+def line(rows: pd.DataFrame) -> str:
+    """The format of a curve in `Axes.plot`: a single row is a dot."""
+    return "o" if len(rows) == 1 else "-"
+
+
 def dots(axes: Axes, x: Iterable, y: Iterable, colour: str, size: float, **options) -> None:
     """Draw dots of a size in points, without edges and lines; options of `Axes.plot`."""
     axes.plot(x, y, ".", color=colour, markersize=size, markeredgewidth=0.0, **options)
@@ -137,17 +142,26 @@ def mark(axes: Axes, x: float, label: str) -> None:
     note(axes, label, (x, 1.0), (2, -1), xycoords=("data", "axes fraction"), va="top")
 
 
+def borders(places: np.ndarray) -> np.ndarray:
+    """The borders of cells around ascending places; a single one gets a cell of a tenth of its size."""
+    if len(places) == 1:
+        half = 0.05 * abs(places[0]) or 0.5
+        return np.array([places[0] - half, places[0] + half])
+    middle = 0.5 * (places[1:] + places[:-1])
+    return np.concatenate([[2.0 * places[0] - middle[0]], middle, [2.0 * places[-1] - middle[-1]]])
+
+
 def class_map(axes: Axes, classes: pd.DataFrame, colours: dict[str, str]) -> None:
     """Draw a map of named classes; `classes` has x in its columns and y in its index, `colours` is keyed by class."""
     numbers = {name: number for number, name in enumerate(colours)}
     axes.pcolormesh(
-        classes.columns.to_numpy(),
-        classes.index.to_numpy(),
+        borders(classes.columns.to_numpy()),
+        borders(classes.index.to_numpy()),
         classes.replace(numbers).to_numpy(dtype=float),
         cmap=ListedColormap(list(colours.values())),
         vmin=-0.5,
         vmax=len(colours) - 0.5,
-        shading="nearest",
+        shading="flat",
         rasterized=True,
     )
 

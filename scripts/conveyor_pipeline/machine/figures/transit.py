@@ -25,8 +25,9 @@ def draw_bands(axes: Axes, transit: pd.DataFrame) -> None:
     for population in populations_of(transit):
         rows, colour = transit[transit.population == population], COLOURS[population]
         label = f"{LABELS[population]}: median, and 5 to 95 %"
-        look = "o" if len(rows) == 1 else "-"
-        axes.plot(rows.acceleration, 100.0 * rows.velocity_50, look, color=colour, label=label, linewidth=1.3)
+        axes.plot(
+            rows.acceleration, 100.0 * rows.velocity_50, style.line(rows), color=colour, label=label, linewidth=1.3
+        )
         ends = 100.0 * rows.velocity_05, 100.0 * rows.velocity_95
         if len(rows) == 1:
             bar = {"linewidth": 8.0, "alpha": 0.35} if population == IDENTICAL else {"linewidth": 1.3}
@@ -88,7 +89,7 @@ def plot(
     bands.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     for population in populations_of(transit):
         rows = transit[transit.population == population]
-        spreads.plot(rows.acceleration, rows.spread, "o" if len(rows) == 1 else "-", color=COLOURS[population])
+        spreads.plot(rows.acceleration, rows.spread, style.line(rows), color=COLOURS[population])
     if (transit.spread > 0.0).any():
         spreads.set_yscale("log")
     else:

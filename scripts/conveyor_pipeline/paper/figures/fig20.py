@@ -24,7 +24,7 @@ def plot(
         colour = style.LOOKS[role]["color"]
         between = edge.acceleration[edge.is_critical & (edge.z0 < table.attrs["epsilon"])]
         axes.axhline(0.0, color="black", linewidth=0.6)
-        axes.plot(table.acceleration, table["lambda"], color=colour, linewidth=0.8)
+        axes.plot(table.acceleration, table["lambda"], style.line(table), color=colour, linewidth=0.8)
         if len(between):
             axes.axvspan(between.min(), between.max(), color="0.88", linewidth=0.0, zorder=0)
             place = {"xycoords": ("data", "axes fraction"), "va": "bottom"}

@@ -13,7 +13,7 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, critical_acceleration:
     axes.axhline(0.0, color="black", linewidth=0.6)
     for role, table in {"euler": euler, "converged": converged}.items():
         width = 1.6 if role == "euler" else 0.8
-        axes.plot(table.acceleration, table["lambda"], linewidth=width, **style.LOOKS[role])
+        axes.plot(table.acceleration, table["lambda"], style.line(table), linewidth=width, **style.LOOKS[role])
     if critical_acceleration is not None:
         style.mark(axes, critical_acceleration, f"{critical_acceleration:g} m/s²")
     axes.set_xlabel(style.AMPLITUDE)
