@@ -22,7 +22,7 @@ NUMBER = re.compile(r"[-+]?(\d[\d.,'\u00a0\u202f]*|[.,]\d+)([eE][-+]?\d+)?")
 # A clock time, also behind a date of any form, or of minutes and seconds alone; some write 12:30:05:250, and AM or PM.
 CLOCK = re.compile(
     r"(?:(?:(?P<date>[-\d./]{6,10})[T ])?(?P<hours>\d{1,2}):)?(?P<minutes>\d{1,2}):(?P<seconds>\d{2}(?:[.,:]\d+)?)"
-    r"(?: ?(?P<half>[AP]M))?(?:Z|[-+]\d{2}:?\d{2})?",
+    r"(?: ?(?P<half>[AP]M))?(?:Z|(?P<offset>[-+]\d{2}:?\d{2}))?",
     re.IGNORECASE,
 )
 # A unit behind a name: Time (ms), accel [g], and in a line of its own: (s), m/s^2; and as in DIN 461: t/ms.
@@ -178,7 +178,8 @@ def find_header(lines: Sequence[tuple[int, str]], separator: str, is_known: Call
     candidates = []
     for place, (_, line) in enumerate(lines[:PREAMBLE]):
         fields = split(line.lstrip("#"), separator)
-        known = sum(is_known(field) for field in fields)
+        # A line of settings may name the time once for each channel.
+        known = len({field.lower() for field in fields if is_known(field)})
         is_comment = line.startswith("#")
         # Settings before the header may hold several lines of numbers.
         if place > first and (known < 2 or any(one[1] > 1 for one in candidates)):
@@ -356,7 +357,11 @@ def clock_seconds(texts: Any) -> Any:
     is_afternoon = parts.half.str.upper() == "PM"
     hours = hours.where(parts.half.isna(), hours % 12 + 12 * is_afternoon)
     seconds = pd.to_numeric(parts.seconds.str.replace("[,:]", ".", regex=True))
-    time = (HOUR * hours.fillna(0.0) + 60.0 * pd.to_numeric(parts.minutes) + seconds).to_numpy(dtype=np.float64)
+    offset = parts.offset.str.replace(":", "").fillna("+0000")
+    ahead = HOUR * pd.to_numeric(offset.str[:3]) + 60.0 * pd.to_numeric(offset.str[0] + offset.str[3:])
+    clock = HOUR * hours.fillna(0.0) + 60.0 * pd.to_numeric(parts.minutes) + seconds
+    # A clock may change its offset from UTC, as where daylight saving begins.
+    time = (clock - (ahead - ahead.iloc[0])).to_numpy(dtype=np.float64)
     turn = HOUR if hours.isna().all() else DAY
     is_next = np.diff(time, prepend=time[:1]) < -0.5 * turn
     if parts.date.notna().all():

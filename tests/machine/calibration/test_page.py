@@ -133,6 +133,7 @@ def test_a_search_that_has_not_converged_says_only_that():
     """No verdict, no number of a parameter, no error, and no advice on effort."""
     text = whole_page(converged=False, found=1.5)
     assert text.startswith("# Calibration\n\n**The search has not converged.**")
+    assert "not peak to peak, not an effective value" in text
     assert "1.5 effective samples in 4 independent searches" in text and "at least 40 effective samples" in text
     for word in ("does not explain", "±", "effort", "## ", "friction", "p-value", "m/s²"):
         assert word not in text

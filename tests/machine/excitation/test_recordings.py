@@ -148,6 +148,24 @@ def test_a_slower_sensor_that_is_interpolated_is_refused(ratio, columns):
     assert f"of the samples of the column {columns[0]} on straight lines" in fault_of(text_of(finer, made))
 
 
+def test_interpolation_at_a_multiple_of_the_drive_is_refused():
+    """Twenty samples in each cycle of 50 Hz: few different phases, but noise that makes the samples different."""
+    time, readings = sampled(500.0, noise=0.3)
+    finer = np.arange(2 * len(time) - 1) / 1000.0
+    made = np.array([np.interp(finer, time, one) for one in readings])
+    assert "of the samples of the column x on straight lines" in fault_of(text_of(finer, made))
+    _, own = sampled(1000.0, count=len(finer), noise=0.3)
+    assert check(text_of(finer, own), PURE.settings).sampling == STAMPED
+
+
+@pytest.mark.parametrize("ratio", [2, 4])
+def test_a_slower_channel_that_is_held_is_refused(ratio):
+    time, readings = sampled(1000.0, noise=0.3)
+    held = np.arange(len(time)) // ratio * ratio
+    fault = fault_of(text_of(time, np.array([readings[0], readings[1, held]])))
+    assert f"repeats the reading of the line before in {100 - 100 // ratio} % of the lines of the column z" in fault
+
+
 LATE = {  # what happens to a part of a long recording, from then on, and a part of the message
     "the drive stops": (lambda time, readings: 0.0 * readings, "is not steady: its amplitude"),
     "the amplitude rises": (lambda time, readings: 1.5 * readings, "is not steady: its amplitude"),
@@ -667,6 +685,18 @@ SPELLINGS = {
     "tabs, names of several words, and a tab at the end": lambda lines: [
         "Time (s)\tAcceleration X (m/s^2)\tAcceleration Z (m/s^2)\t",
         *(f"{line}\t".replace(",", "\t") for line in lines[1:]),
+    ],
+    "beginning of daylight saving": lambda lines: [
+        lines[0],
+        *(clock(line, "2026-03-29T01:59:{:09.6f}+01:00", "2026-03-29T03:00:{:09.6f}+02:00") for line in lines[1:]),
+    ],
+    "settings for each channel": lambda lines: [
+        "Channels\t2\t",
+        "X_Dimension\tTime\tTime",
+        "X0\t0.0\t0.0",
+        "Delta_X\t0.000625\t0.000625",
+        "time\tx\tz",
+        *(line.replace(",", "\t") for line in lines[1:]),
     ],
     "nanoseconds": lambda lines: [
         "timestamp (ns),x,z",

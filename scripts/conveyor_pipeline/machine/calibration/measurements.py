@@ -117,8 +117,11 @@ def largest_velocity(measured: Measurement, model: Mapping[str, Any]) -> float:
     return plate_velocity(measured.acceleration, own) + fall * (measured.before + measured.duration)
 
 
-def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tuple[int, str]]:
-    """Line and description of velocities that no part on this plate can have, and for their errors: other units."""
+def unit_faults(rows: list[Measurement], model: Mapping[str, Any], stated: str) -> list[tuple[int, str]]:
+    """Line and description of velocities that no part on this plate can have, and for their errors: other units.
+
+    stated : unit of the velocities in the header, or ""
+    """
     bounds = [largest_velocity(row, model) for row in rows]
     fast = [(row, bound) for row, bound in zip(rows, bounds, strict=True) if abs(row.velocity) > TOO_FAST * bound]
     if not fast:
@@ -136,7 +139,8 @@ def unit_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tuple
     units = {100.0: "cm/s: divide by 100", 1000.0: "mm/s: divide by 1000", 60.0: "m/min: divide by 60"}
     nearest = min(units, key=lambda one: abs(math.log(factor / one)))
     row, bound = fast[0]
-    remedy = f"is the velocity in {units[nearest]}? Is the acceleration in g: multiply by 9.81?"
+    unit = f"{stated}, as the header says" if stated else units[nearest]
+    remedy = f"is the velocity in {unit}? Is the acceleration in g: multiply by 9.81?"
     more = f" ({len(fast)} lines of {len(rows)} are like this)" if len(fast) > 1 else ""
     return [
         (
@@ -200,7 +204,8 @@ def parse(table: Any, settings: Mapping[str, Any], ranges: Mapping) -> list[Meas
         measurement_of(line, {name: float(values[row]) for name, values in columns.items()})
         for row, line in enumerate(table.lines.tolist())
     ]
-    if faults := unit_faults(rows, settings["model"]) or height_faults(rows, settings["model"]):
+    stated = dict(zip(table.names, table.units, strict=True))["velocity"]
+    if faults := unit_faults(rows, settings["model"], stated) or height_faults(rows, settings["model"]):
         raise table.error(faults)
     if len(rows) < parameters:
         remedy = "measure more, or calibrate fewer with calibration.parameters"

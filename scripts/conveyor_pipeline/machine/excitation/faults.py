@@ -74,6 +74,9 @@ CHANCE_OF_FLAT = 0.01  # that the flattest wave looks cut off
 # Straight lines between samples: least share in each of several pieces, and ratio to those that nearly are on a line.
 LINES, STRAIGHT, PIECES = 0.1, 3.0, 8
 VARIED = 33  # different phases, of 64
+COARSE = 20.0  # steps of the readings; with more noise, chance puts few samples on a line at any number of phases
+# Readings that a slower channel holds: least share in each piece, and median of the other changes in steps.
+HELD, MOVING = 0.2, 5.0
 CYCLES = {2: "second", 3: "third", 4: "fourth"}
 WEAK = 2.0  # times as strong as the fundamental: a harmonic that may be the drive itself
 # Strips at the extreme, in halves of the span of the values; ratio of the first to the second; and how many times the
@@ -222,14 +225,32 @@ def time_faults(recording: Recording) -> Iterator[Fault]:
             f"and {len(equal) - 1:,} further lines repeat the time of the line before; {remedy}",
         )
     elif recording.rate_error > MOST_RATE_ERROR:
-        yield f"has times so coarse that its rate is known to {100 * recording.rate_error:.2g} % only; {remedy}"
+        rate = f"its rate is known to {100 * recording.rate_error:.2g} % only"
+        yield f"has times that are rounded, or may be, so that {rate}; {remedy}"
+
+
+def hold_faults(signal: Signal) -> Iterator[Fault]:
+    """Readings of a slower channel, which are held until the next one."""
+    recording = signal.recording
+    for key, readings, quantum in zip(recording.columns, recording.readings, recording.quanta, strict=True):
+        changes = np.abs(np.diff(readings)) / quantum
+        held = changes < 0.5
+        share = min(part.mean() for part in np.array_split(held, PIECES))
+        if share > HELD and np.median(changes[~held]) > MOVING:
+            yield (
+                f"repeats the reading of the line before in {100.0 * share:.0f} % of the lines of the column "
+                f"{recording.names[key].lstrip('-')}, as where one channel is slower than the other, which makes its "
+                "phase and its amplitude wrong; export the readings of both channels as they were measured"
+            )
+            return
 
 
 def interpolation_faults(signal: Signal) -> Iterator[Fault]:
     """Samples on straight lines between those that a slower sensor has measured."""
     recording = signal.recording
-    # Few phases repeat the same few triples of samples, so that their shares are chance.
-    if phases_of(signal.time, signal.fitted) < VARIED:
+    # Few phases repeat the same few triples of samples, so that their shares are chance, unless noise changes them.
+    noise = math.sqrt((signal.fitted.residual**2).mean())
+    if phases_of(signal.time, signal.fitted) < VARIED and noise < COARSE * recording.quanta.max():
         return
     intervals = np.maximum(np.diff(recording.time), 1e-12)
     weight = intervals[1:] / (intervals[1:] + intervals[:-1])
@@ -503,7 +524,8 @@ def unit_faults(signal: Signal) -> Iterator[Fault]:
     """A mean that is not gravity, or an amplitude that no conveyor has."""
     unit, acceleration = signal.recording.unit, float(np.hypot(*signal.sizes))
     gravity = gravity_of(signal.fitted, signal.settings.get("inclination", 0.0))
-    shown = f"vibrates with {acceleration / UNITS[unit]:.4g} {unit}, which is {acceleration:.4g} m/s²"
+    converted = f", which is {acceleration:.4g} m/s²" if UNITS[unit] != 1.0 else ""
+    shown = f"vibrates with {acceleration / UNITS[unit]:.4g} {unit}{converted}"
     if fault := size_fault(gravity, acceleration, unit):
         yield fault
     elif acceleration > MOST_ACCELERATION:
@@ -541,7 +563,7 @@ def share_faults(signal: Signal) -> Iterator[Fault]:
 OF_TIMES = ((time_faults,), (gap_faults,))
 OF_SIGNAL = (
     (count_faults,),
-    (interpolation_faults,),
+    (hold_faults, interpolation_faults),
     (sensor_faults,),
     (subharmonic_faults,),
     (frequency_faults, sampling_faults),

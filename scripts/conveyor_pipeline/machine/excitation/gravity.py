@@ -123,7 +123,7 @@ def direction_fault(recording: Recording, gravity: Gravity, settings: Mapping[st
     if abs(wrap(math.radians(mount) - fits)) < MOST_LEAN and abs(mount) >= LEAST_DEGREES:
         return f"{shown}; the mount looks like degrees: set excitation.mount: {math.radians(mount):.4g}"
     entries = fitting_columns(recording, means, mount, inclination)
-    if entries and abs(gravity.lean) > 0.5 * math.pi:
+    if entries and abs(gravity.lean) > 0.5 * math.pi + MOST_LEAN:
         if len(entries) > 1:
             underside, negated = entries[0], entries[1]
             return (
