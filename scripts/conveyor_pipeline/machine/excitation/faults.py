@@ -178,7 +178,7 @@ def gap_faults(recording: Recording) -> Iterator[Fault]:
     if (missing := intervals[is_gap].sum()) > MOST_GAPS * intervals.sum():
         yield (
             int(recording.lines[np.argmax(is_gap) + 1]),
-            f"follows a gap, and gaps are {100.0 * missing / intervals.sum():.2g} % of the recording; keep a piece "
+            f"follows a gap, and gaps are {100.0 * missing / intervals.sum():.3g} % of the recording; keep a piece "
             "between gaps",
         )
 
