@@ -138,7 +138,7 @@ def test_a_side_that_leads_to_another_point_counts_as_no_change(jump, status):
 def test_curves_in_parameters_and_in_groups(tables):
     factors = dict.fromkeys(("damping", "stiffness", "frequency", "angle"), 1.3)
     settings = {**SETTINGS, "model": MODEL, "effort": 0.3, "factors": factors}
-    found = curves.make(tables[0].iloc[:3], tables[1], settings, threads=2)
+    found = curves.make(tables[0].iloc[:3], tables[1], settings)
     continued = pd.DataFrame(found["continued"])
     assert len(continued.groupby(["kind", "begin", "parameter"])) == 3 * 4
     paper = {"damping": 0.3, "stiffness": 5e5, "frequency": 50.0}

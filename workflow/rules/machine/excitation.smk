@@ -46,7 +46,6 @@ rule clean_drive:
         log_file("excitation/clean_drive"),
     benchmark:
         benchmark_file("excitation/clean_drive")
-    threads: THREADS
     params:
         **stage("conveyor_pipeline.machine.excitation.clean_drive", "excitation/clean_drive"),
     script:

@@ -62,7 +62,6 @@ rule bodies:
         log_file("operating/bodies"),
     benchmark:
         benchmark_file("operating/bodies")
-    threads: THREADS
     params:
         **stage("conveyor_pipeline.machine.operating.bodies", "operating/bodies"),
     script:

@@ -28,7 +28,6 @@ rule curves:
         log_file("sensitivity/curves"),
     benchmark:
         benchmark_file("sensitivity/curves")
-    threads: THREADS
     params:
         **stage("conveyor_pipeline.paper.sensitivity.curves", "sensitivity/continued"),
     script:
@@ -43,7 +42,6 @@ rule frictions:
         log_file("sensitivity/frictions"),
     benchmark:
         benchmark_file("sensitivity/frictions")
-    threads: THREADS
     params:
         **stage("conveyor_pipeline.paper.sensitivity.frictions", "sensitivity/frictions"),
     script:

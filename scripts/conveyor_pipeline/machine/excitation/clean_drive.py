@@ -38,14 +38,14 @@ def drives_of(settings: dict) -> list[tuple[int, float, float]]:
     return [(0, 0.0, math.nan), *itertools.product(settings["orders"], settings["shares"], phases)]
 
 
-def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
+def make(settings: dict, *, progress: str | None = None) -> pd.DataFrame:
     """The table for the settings of the config."""
     regimes = {amplitude: regime for regime in REGIMES for amplitude in settings[regime]}
     amplitudes, tables = np.unique(list(regimes)), []
     for order, share, phase in drives_of(settings):
         model = {**settings["model"], "harmonics": [harmonic(order, share, phase)] if order else []}
         own = {**settings, "model": model}
-        table = transit.measure(amplitudes, own, (VARIED,), threads=threads, progress=progress)
+        table = transit.measure(amplitudes, own, (VARIED,), progress=progress)
         tables.append(table.drop(columns="population").assign(order=order, share=share, phase=phase))
     table = pd.concat(tables, ignore_index=True)
     return table.assign(regime=table.acceleration.map(regimes))

@@ -66,7 +66,7 @@ LENGTHS, SLENDERNESS, CELLS = (10.0, 400.0), (0.05, 1.2), 6
 LANDING_PHASE, OUTLINES = 0.0, np.array([-0.03, 0.0, 0.02, 0.04, 0.07, 0.11, 0.16])
 
 
-def measure(rows: np.ndarray, shape: tuple[float, float] | None, settings: dict, **options) -> list[dict]:
+def measure(rows: np.ndarray, shape: tuple[float, float] | None, settings: dict, progress: str | None) -> list[dict]:
     """The measures of parts of one shape, or of points, at each amplitude in a table of populations.
 
     shape : length in units of g cos α/ω² and height over length
@@ -77,7 +77,7 @@ def measure(rows: np.ndarray, shape: tuple[float, float] | None, settings: dict,
     own = {**settings, "length": body_limits.TRACK * unit, "longest": longest, "tolerance": body_limits.TOLERANCE}
     if shape:
         own["body"] = {"length": length * unit, "height": length * height * unit, "tilt": TILT}
-    run, measures = follow_parts(rows, own, **options), []
+    run, measures = follow_parts(rows, own, progress=progress), []
     for first in range(0, len(rows), settings["starts"]):
         parts = run.select(slice(first, first + settings["starts"]))
         summary, right = summarize(parts), parts.select(parts.status == "ok")
@@ -125,27 +125,26 @@ def logarithmic(ends: tuple[float, float], count: int) -> list[float]:
     return [float(f"{value:.3g}") for value in np.geomspace(*ends, count)]
 
 
-def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, pd.DataFrame]:
+def make(settings: dict, *, progress: str | None = None) -> dict[str, pd.DataFrame]:
     """The tables of curves and of the map for the settings of the config."""
     effort, model = settings["effort"], settings["model"]
     unit = throw_number(1.0, **model)
     curves = {**settings, "starts": max(4, round(effort * body_limits.PARTS))}
     throws = np.linspace(*body_limits.THROWS, max(3, round(effort * body_limits.AMPLITUDES)))
     rows = population(throws / unit, curves, IDENTICAL)
-    options = {"threads": threads, "progress": progress}
-    table = pd.DataFrame([row for shape in (None, *SHAPES) for row in measure(rows, shape, curves, **options)])
+    table = pd.DataFrame([row for shape in (None, *SHAPES) for row in measure(rows, shape, curves, progress)])
     table["throw_number"] = np.tile(throws, len(SHAPES) + 1)
     cells = {**settings, "starts": max(4, round(effort * body_limits.OF_A_CELL))}
     side = max(2, round(effort * CELLS))
     rows = population(np.array(list(MOTIONS.values())) / unit, cells, IDENTICAL)
     many = {**settings, "starts": max(4, round(effort * body_limits.POINTS))}
     reference = population(np.array(list(MOTIONS.values())) / unit, many, IDENTICAL)
-    points = [one["velocity_50"] for one in measure(reference, None, many, **options)]
+    points = [one["velocity_50"] for one in measure(reference, None, many, progress)]
     shapes = []
     for length in logarithmic(LENGTHS, side):
         for height in logarithmic(SLENDERNESS, side):
             for motion, own, point in zip(
-                MOTIONS, measure(rows, (length, height), cells, **options), points, strict=True
+                MOTIONS, measure(rows, (length, height), cells, progress), points, strict=True
             ):
                 difference = own["velocity_50"] / point - 1.0 if point else np.nan
                 shapes.append({"motion": motion, **own, "difference": difference})

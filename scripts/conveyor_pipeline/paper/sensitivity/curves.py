@@ -132,7 +132,6 @@ def make(
     cascade: pd.DataFrame,
     settings: dict,
     *,
-    threads: int = 1,
     progress: str | None = None,
 ) -> dict[str, dict[str, np.ndarray]]:
     """The columns of both tables, by their kinds, for the section `sensitivity` of the config."""
@@ -150,7 +149,7 @@ def make(
             curve = follow_curve(parameters, bifurcation.point, parameter, settings["factors"][parameter])
             rows_of_curves[n] = curve_rows(parameters, bifurcation, parameter, curve)
 
-    for_each_chunk(work, len(tasks), threads=threads, chunk=1, progress=progress)
+    for_each_chunk(work, len(tasks), chunk=1, progress=progress)
     return {
         "continued": fields.columns([row for rows, _ in rows_of_curves for row in rows], TABLES["continued"]),
         "meetings": fields.columns([row for _, rows in rows_of_curves for row in rows], TABLES["meetings"]),

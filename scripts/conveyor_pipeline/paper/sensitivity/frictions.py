@@ -25,12 +25,12 @@ TOLERANCE = 1e-8
 CYCLES = 2000  # excitation cycles, after which these motions have settled
 
 
-def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, np.ndarray]:
+def make(settings: dict, *, progress: str | None = None) -> dict[str, np.ndarray]:
     """The columns of the table, for the model of the settings."""
     # The static friction follows the friction.
     model = {name: value for name, value in settings["model"].items() if name != "static_friction"}
     axes, parameters = grid.product(AXES, model)
-    options = {"tolerance": TOLERANCE, "threads": threads, "progress": progress}
+    options = {"tolerance": TOLERANCE, "progress": progress}
     runs = sweep(parameters, duration=DURATION, **options)
     ends = restart(parameters, runs["z_end"], runs["vz_end"], DURATION)
     labels = classify(ends, cycles=CYCLES, **options)
