@@ -146,7 +146,7 @@ def test_overlays_of_two_conveyors_are_not_mixed(tmp_path):
     for file, text in zip(files, ("sweeps: {}", "model: {mass: 2 g}", "model: {damping: 0.2}"), strict=True):
         file.write_text(f"prefix: {file.stem}\n{text}\n")
     assert load_config(files[:2], {}).config["prefix"] == "one"
-    with pytest.raises(ConfigError, match=r"given for one \(.*one.yaml\) and two \(.*; run one command for each"):
+    with pytest.raises(ConfigError, match=r"given for one \(.*one.yaml\) and two \(.*mixed\nrun one command for each"):
         load_config(files, {})
 
 
@@ -181,7 +181,7 @@ def test_the_whole_config_is_shown_with_origins(tmp_path):
     file = tmp_path / "mine.yaml"
     file.write_text(
         "prefix: mine\nsweeps:\n  heights:\n    axes: {z0: {num: 41}}\n  one: {axes: {z0: [0, 1e-4]}}\n"
-        "model:\n  friction: 0.2\n  <<: {damping: 0.2, friction: 0.3}\n"
+        "model:\n  friction: 0.2\n  <<: [{damping: 0.2, friction: 0.3}, {damping: 0.4}]\n"
     )
     show = [*CHECK, "--show", str(file)]
     run = subprocess.run(show, cwd=ROOT, env=WITH_SCRIPTS, capture_output=True, text=True, check=True)

@@ -146,7 +146,7 @@ def check(path: str | Path, kind: str, settings: dict | None = None) -> None:
     """Raise TableError if `path` is not a table of this kind, or was made from settings other than the given ones."""
     try:
         metadata = pq.read_schema(path).metadata or {}
-    except (pa.ArrowException, OSError) as error:
+    except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
         raise TableError(f"{path} cannot be read as a table of {kind} ({error}); {REMEDY}") from error
     if metadata.get(KIND) != kind.encode():
         actual = metadata.get(KIND, b"").decode() or "something else"
@@ -162,7 +162,7 @@ def read(path: str | Path, kind: str, settings: dict | None = None) -> pd.DataFr
     check(path, kind, settings)
     try:
         return pd.read_parquet(path, page_checksum_verification=True)
-    except (pa.ArrowException, OSError) as error:
+    except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
         raise TableError(f"{path} is damaged ({error}); {REMEDY}") from error
 
 

@@ -55,7 +55,13 @@ def check_one_conveyor(files: Sequence[str | Path], contents: list[dict]) -> Non
     }
     if len(named) > 1:
         conveyors = " and ".join(f"{name} ({file})" for name, file in named.items())
-        raise ConfigError([f"prefix and model are given for {conveyors}; run one command for each conveyor"])
+        raise ConfigError(
+            [
+                f"prefix and model are given for {conveyors}, which would be mixed",
+                "run one command for each conveyor, each in a file of its own, not in config/config.yaml; if one of "
+                "them changes the other, leave out the prefix of the other",
+            ]
+        )
 
 
 def load_config(overlay_files: Sequence[str | Path], config: dict) -> Loaded:
@@ -68,10 +74,10 @@ def load_config(overlay_files: Sequence[str | Path], config: dict) -> Loaded:
     config : Snakemake's merged config. As a module of another workflow, it is the only overlay
     """
     paper, overlays = default_config(), [read(file) for file in overlay_files]
-    check_one_conveyor(overlay_files, overlays)
     whole = merge(paper, *overlays, config)
     if errors := type_problems(whole):
         raise ConfigError(name_lines(errors, overlay_files, config))
+    check_one_conveyor(overlay_files, overlays)
     name_measurements(whole, overlay_files, overlays)
     stated = merge(*overlays, config)
     if errors := problems(whole, paper, stated):

@@ -60,7 +60,9 @@ def find_lines(file: str | Path) -> dict[tuple[str | int, ...], str]:
         )
         for part, marked, value in named:
             if part == "<<":
-                yield from lines_below(value, path)
+                # Of several mappings, the first one that has a key counts.
+                for merged in reversed(value.value) if isinstance(value, SequenceNode) else [value]:
+                    yield from lines_below(merged, path)
             else:
                 yield (*path, part), f"{file}:{marked.start_mark.line + 1}"
                 yield from lines_below(value, (*path, part))
@@ -81,13 +83,13 @@ def name_lines(errors: Sequence[str], files: Sequence[str | Path], config: dict)
 
     config : values that replace those of the files, of the option --config; without files, of another workflow
     """
-    lines = {format_key(path): line for file in files for path, line in find_lines(file).items()}
-    if files:
-        lines |= {format_key(path): "--config" for path in paths_of(config)}
+    in_files = {format_key(path): line for file in files for path, line in find_lines(file).items()}
+    lines = in_files | ({format_key(path): "--config" for path in paths_of(config)} if files else {})
     named = []
     for error in errors:
         key = error.partition(" ")[0]
-        line = lines.get(key.rpartition(".")[0] if error == f"{key} is missing" else key)
+        above = key.rpartition(".")[0]
+        line = in_files.get(above, lines.get(above)) if error == f"{key} is missing" else lines.get(key)
         named.append(f"{line}: {error}" if line else error)
     return named
 

@@ -82,7 +82,11 @@ BAD = {
     "velocities in cm/s": (f"{HEAD}\n30,2\n40,5\n50,6\n", 2, "in cm/s: divide by 100"),
     "velocities in m/min": (f"{HEAD}\n30,1.2\n40,3\n50,3.6\n", 2, "in m/min: divide by 60"),
     "velocities in mm/s": (f"{HEAD}\n30,20\n40,50\n50,60\n", 2, "in mm/s: divide by 1000"),
-    "mm/s below cm/s": ("acceleration,velocity (cm/s)\n30,20\n40,50\n50,60\n", 2, "in cm/s, as the header says?"),
+    "mm/s below cm/s": (
+        "acceleration,velocity (cm/s)\n30,20\n40,50\n50,60\n",
+        2,
+        "in cm/s, as the header says, or m/min: divide by 60?",
+    ),
     "accelerations in g": (f"{HEAD}\n3,0.02\n4,0.05\n5,0.06\n", 2, "Is the acceleration in g: multiply by 9.81?"),
     "fewer rows than parameters": (f"{HEAD}\n30,0.02\n40,0.05\n", 3, "2 measurements cannot determine 3 parameters"),
     "a spreadsheet": (b"PK\x03\x04\x14\x00\x06\x00\xff\xfe" + bytes(300), 1, "is not text"),

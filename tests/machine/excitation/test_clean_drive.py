@@ -68,6 +68,6 @@ def test_the_statement_holds_within_its_limits(riding, chaos, holds):
     assert found["riding"] == pytest.approx(riding * 0.05)
     assert found["riding_medians"][1] <= found["most"] + 1e-12
     assert found["amplitudes"] == [80.0]
-    assert found["stderr"]["riding"] == pytest.approx(0.03 / (1.0 - 0.05 * riding))
-    assert found["stderr"]["chaos"] == pytest.approx(0.01 / (1.0 - 0.05 * chaos))
+    assert found["stderr"]["riding"]["velocity_05"] == pytest.approx(0.03 / (1.0 - 0.05 * riding))
+    assert found["stderr"]["chaos"]["velocity_50"] == pytest.approx(0.01 / (1.0 - 0.025 * chaos))
     assert found["holds"] is holds

@@ -158,12 +158,21 @@ def test_interpolation_at_a_multiple_of_the_drive_is_refused():
     assert check(text_of(finer, own), PURE.settings).sampling == STAMPED
 
 
-@pytest.mark.parametrize("ratio", [2, 4])
-def test_a_slower_channel_that_is_held_is_refused(ratio):
+@pytest.mark.parametrize("phase", np.arange(0.0, 6.0, 0.5))
+def test_a_slow_sway_is_not_taken_for_interpolation(phase):
+    """In few phases, with readings in coarse steps: the sway is large, but changes hardly from sample to sample."""
+    time, readings = sampled(800.0, noise=0.01)
+    sway = 2.0 * np.sin(2.0 * np.pi * 0.7 * time + phase)
+    check(text_of(time, 0.04 * np.round((readings + sway) / 0.04)), PURE.settings)
+
+
+@pytest.mark.parametrize(("ratio", "share"), [(1.2, 16), (2.0, 50), (4.0, 75)])
+def test_a_slower_channel_that_is_held_is_refused(ratio, share):
     time, readings = sampled(1000.0, noise=0.3)
-    held = np.arange(len(time)) // ratio * ratio
+    held = np.floor(np.floor(np.arange(len(time)) / ratio) * ratio).astype(int)
     fault = fault_of(text_of(time, np.array([readings[0], readings[1, held]])))
-    assert f"repeats the reading of the line before in {100 - 100 // ratio} % of the lines of the column z" in fault
+    assert f"repeats the reading of the line before in {share} % of the lines of the column z" in fault
+    assert "straight lines" not in fault
 
 
 LATE = {  # what happens to a part of a long recording, from then on, and a part of the message

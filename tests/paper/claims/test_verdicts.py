@@ -317,11 +317,14 @@ def test_velocities_of_both_states():
     tables = {**both(heights), "tension": table[table.z0 == 0.0].assign(tension="clip"), "frictions": frictions}
     tables["velocities_of"] = {"lower_end": [1.4, 1.8], "upper_end": [2.3, 4.75], "fall": [0.1, 0.13]}
     assert numbers(about_states.first_velocity(**tables).converged) == pytest.approx((2.9, 4.7))
-    assert numbers(about_states.second_velocity(**tables).converged) == pytest.approx((0.18,))
-    dip = heights.assign(mean_velocity=heights.mean_velocity.where(heights.acceleration != 40.0, 0.06))
-    assert "6.00 cm/s, is at 40 m/s², so that its largest fall within the interval is 1 cm/s" in (
-        about_states.second_velocity(**{**tables, **both(dip)}).note
-    )
+    fine = heights.assign(mean_velocity=heights.mean_velocity.where(heights.acceleration != 40.0, 0.06))
+    finding = about_states.second_velocity(**tables, fine=fine)
+    assert numbers(finding.converged) == pytest.approx((0.18,))
+    assert "6.000 cm/s, is at 40 m/s²; the largest fall within the interval is 1 cm/s. " in finding.note
+    tables["velocities_of"]["fall"] = [0.9, 1.1]
+    note = about_states.second_velocity(**tables, fine=fine).note
+    assert "is 1 cm/s, which would be accepted: the verdict depends on the reading. " in note
+    tables["velocities_of"]["fall"] = [0.1, 0.13]
     note = about_states.first_velocity(**tables).note
     assert "4.70 cm/s (clip)" in note
     assert "the first state's velocity at the lower end at frictions of 0.5 to 0.6, at the upper end" in note
@@ -332,10 +335,17 @@ def test_velocities_of_both_states():
     tables["velocities_of"]["fall"] = [0.3, 0.36]
     # At 0.6 the velocities are 1.74 and 2.82, 6 % below its interval, and the fall is 0.108, 10 % below its own.
     tables["velocities_of"] = {"lower_end": [1.4, 1.8], "upper_end": [3.0, 3.5], "fall": [0.12, 0.13]}
-    note = about_states.second_velocity(**tables).note
+    note = about_states.second_velocity(**tables, fine=heights).note
     assert note.endswith(
         "At 0.6 they come nearest: each lies within its accepted interval or misses it by at most 10.0 % of its end"
     )
+    # With amplitudes at which no other friction was tried, and without a second state.
+    between = heights[heights.acceleration.between(30.0, 40.0)]
+    note = about_states.second_velocity(**{**tables, **both(between)}, fine=heights).note
+    assert note.endswith("No other friction was tried at 30 m/s² and 40 m/s²")
+    tables["frictions"] = frictions.assign(state="first")
+    note = about_states.second_velocity(**tables, fine=heights).note
+    assert note.endswith("the second state's fall at none. No friction gives all of them")
 
 
 def test_both_errors_of_the_fit_are_those_of_the_same_amplitudes():
@@ -366,8 +376,14 @@ def test_both_errors_of_the_fit_are_those_of_the_same_amplitudes():
     finding = about_states.fit(converged=fine, euler=coarse, regression=fits)
     assert numbers(finding.euler) == pytest.approx((2e-12,))
     assert numbers(finding.converged) == pytest.approx((50e-12 / 3.0,))
-    assert "means over the 3 amplitudes of the paper's method, in steps of 2 m/s²" in finding.note
-    assert "over the 5 amplitudes in steps of 1 m/s², the converged error is 1.04e-11 m²" in finding.note
+    assert "means over the 3 amplitudes at which both methods have a critical height" in finding.note
+    assert "over all 5 amplitudes of the converged heights, the error is 1.04e-11 m²" in finding.note
+    missing = about_states.fit(converged=fine[fine.acceleration != 33.0], euler=coarse, regression=fits)
+    assert numbers(missing.euler) == pytest.approx((1e-12,))
+    apart = about_states.fit(
+        converged=fine, euler=coarse.assign(acceleration=coarse.acceleration + 0.5), regression=fits
+    )
+    assert np.isnan(numbers(apart.converged)) and np.isnan(numbers(apart.euler))
     assert "misses the converged heights by at most 5 µm (at 31 m/s²; median 3 µm)" in finding.note
     # The other one has a larger error than the paper's triple.
     assert "every B from -18 to -18" in finding.note

@@ -139,7 +139,7 @@ def unit_faults(rows: list[Measurement], model: Mapping[str, Any], stated: str) 
     units = {100.0: "cm/s: divide by 100", 1000.0: "mm/s: divide by 1000", 60.0: "m/min: divide by 60"}
     nearest = min(units, key=lambda one: abs(math.log(factor / one)))
     row, bound = fast[0]
-    unit = f"{stated}, as the header says" if stated else units[nearest]
+    unit = f"{stated}, as the header says, or {units[nearest]}" if stated else units[nearest]
     remedy = f"is the velocity in {unit}? Is the acceleration in g: multiply by 9.81?"
     more = f" ({len(fast)} lines of {len(rows)} are like this)" if len(fast) > 1 else ""
     return [

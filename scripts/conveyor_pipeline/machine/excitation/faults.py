@@ -75,8 +75,9 @@ CHANCE_OF_FLAT = 0.01  # that the flattest wave looks cut off
 LINES, STRAIGHT, PIECES = 0.1, 3.0, 8
 VARIED = 33  # different phases, of 64
 COARSE = 20.0  # steps of the readings; with more noise, chance puts few samples on a line at any number of phases
-# Readings that a slower channel holds: least share in each piece, and median of the other changes in steps.
-HELD, MOVING = 0.2, 5.0
+# Readings that a slower channel holds: least share in each piece, and its product with the median of the other changes
+# in steps, which is about 0.3 for a wave and for noise, at any size of the steps.
+HELD, MOVING = 0.1, 1.5
 CYCLES = {2: "second", 3: "third", 4: "fourth"}
 WEAK = 2.0  # times as strong as the fundamental: a harmonic that may be the drive itself
 # Strips at the extreme, in halves of the span of the values; ratio of the first to the second; and how many times the
@@ -236,7 +237,7 @@ def hold_faults(signal: Signal) -> Iterator[Fault]:
         changes = np.abs(np.diff(readings)) / quantum
         held = changes < 0.5
         share = min(part.mean() for part in np.array_split(held, PIECES))
-        if share > HELD and np.median(changes[~held]) > MOVING:
+        if share > HELD and share * np.median(changes[~held]) > MOVING:
             yield (
                 f"repeats the reading of the line before in {100.0 * share:.0f} % of the lines of the column "
                 f"{recording.names[key].lstrip('-')}, as where one channel is slower than the other, which makes its "
@@ -249,7 +250,8 @@ def interpolation_faults(signal: Signal) -> Iterator[Fault]:
     """Samples on straight lines between those that a slower sensor has measured."""
     recording = signal.recording
     # Few phases repeat the same few triples of samples, so that their shares are chance, unless noise changes them.
-    noise = math.sqrt((signal.fitted.residual**2).mean())
+    # Second differences leave out what drifts slowly.
+    noise = float(np.diff(signal.fitted.residual, 2).std()) / math.sqrt(6.0)
     if phases_of(signal.time, signal.fitted) < VARIED and noise < COARSE * recording.quanta.max():
         return
     intervals = np.maximum(np.diff(recording.time), 1e-12)
@@ -563,7 +565,8 @@ def share_faults(signal: Signal) -> Iterator[Fault]:
 OF_TIMES = ((time_faults,), (gap_faults,))
 OF_SIGNAL = (
     (count_faults,),
-    (hold_faults, interpolation_faults),
+    (hold_faults,),
+    (interpolation_faults,),
     (sensor_faults,),
     (subharmonic_faults,),
     (frequency_faults, sampling_faults),

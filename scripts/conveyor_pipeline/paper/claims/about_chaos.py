@@ -231,8 +231,7 @@ def predicted_onset(
         f"{format_amplitude(positive_onset(converged_exponent))}. By the paper's method, they show "
         f"{format_amplitude(dimension_onset(euler))} and {format_amplitude(positive_onset(euler_exponent))}: its box "
         f"counting gives {dimension_range(euler, states, 'second')} in the second state and "
-        f"{dimension_range(euler, states, 'chaos')} in chaos. The dimension of a settled motion shows the onset, that "
-        "of a short trajectory does not. Converged phase portraits have no known dimension at "
+        f"{dimension_range(euler, states, 'chaos')} in chaos. Converged phase portraits have no known dimension at "
         f"{unknown.sum()} of {len(converged)} amplitudes{describe_counts(unknown)}"
     )
     return Finding(*quantities, note)
@@ -243,16 +242,16 @@ def fluctuation(*, euler: pd.DataFrame, converged: pd.DataFrame, states: pd.Data
     states = from_lowest_height(states)
 
     def largest_steps(table: pd.DataFrame) -> tuple[float, float]:
-        """The largest change within chaos and between any neighbours; NaN where a neighbour has no estimate."""
+        """The largest change within chaos, and at its edges; NaN where a neighbour has no estimate."""
         rows = with_settled_motion(table, states)
-        steps = rows.dimension.diff().abs()
-        return steps[rows.chaotic & rows.chaotic.shift(fill_value=False)].max(), steps.max()
+        steps, before = rows.dimension.diff().abs(), rows.chaotic.shift(fill_value=False)
+        return steps[rows.chaotic & before].max(), steps[rows.chaotic != before].max()
 
     steps = by_method(largest_steps, euler, converged)
     note = (
         f"Within chaos, the converged dimension changes by at most {steps['converged'][0]:.3f} between neighbouring "
-        f"amplitudes, and the dimension by the paper's method by {steps['euler'][0]:.2f}. At the edge of a periodic "
-        f"window, the converged dimension changes by up to {steps['converged'][1]:.2f}"
+        f"amplitudes, and the dimension by the paper's method by {steps['euler'][0]:.2f}. At the edges of chaos, "
+        f"the converged dimension changes by up to {steps['converged'][1]:.2f}"
     )
     return Finding(*({"largest_step": float(within)} for within, _ in steps.values()), note)
 

@@ -131,12 +131,17 @@ def onset_of_chaos(*, euler: pd.DataFrame, converged: pd.DataFrame, certificates
     """Amplitudes (m/s²) from which velocities scatter, which the paper reads as chaos, and motions are chaotic."""
     scatter = by_method(scatter_onset, euler, converged)
     chaos = by_method(chaos_onset, euler, converged)
-    end = two_states(converged)[1]
-    before = relative_scatter(converged).loc[end : scatter["converged"]].iloc[:-1]
+    end, relative = two_states(converged)[1], relative_scatter(converged)
+    before = relative[(relative.index > end) & (relative.index < scatter["converged"])]
+    also = (
+        f", and at {(before > SCATTER).sum()} of {len(before)} amplitudes between there and {format_amplitude(end)}, "
+        "the end of the interval of two states"
+        if len(before)
+        else ""
+    )
     note = (
-        f"From {format_amplitude(scatter['converged'])} on, velocities scatter at all amplitudes, and at "
-        f"{(before > SCATTER).sum()} of {len(before)} amplitudes between there and {format_amplitude(end)}, the end of "
-        f"the interval of two states. Most motions settle to chaos only from {format_amplitude(chaos['converged'])} on"
+        f"From {format_amplitude(scatter['converged'])} on, velocities scatter at all amplitudes{also}. Most motions "
+        f"settle to chaos only from {format_amplitude(chaos['converged'])} on"
     )
     between = converged[converged.acceleration.between(scatter["converged"], chaos["converged"], inclusive="left")]
     if len(between):
@@ -219,6 +224,8 @@ def describe_frictions(
     """
     ends = sorted({heights.acceleration.min(), heights.acceleration.max()})
     at_ends = frictions[frictions.acceleration.isin(ends)]
+    if at_ends.empty:
+        return f"No other friction was tried at {' and '.join(map(format_amplitude, ends))}"
     rows = {
         friction: velocities(of, "first") + velocities(of, "second") for friction, of in at_ends.groupby("friction")
     }
@@ -240,12 +247,14 @@ def describe_frictions(
     if every.any():
         together = f"All come out at {every.index[every].min():g} to {every.index[every].max():g}"
     else:
+        together = "No friction gives all of them"
         misses = pd.DataFrame({name: relative_miss(values, *velocities_of[name]) for name, values in found.items()})
-        nearest = misses.max(axis=1).idxmin()
-        together = (
-            f"No friction gives all of them. At {nearest:g} they come nearest: each lies within its accepted interval "
-            f"or misses it by at most {100.0 * misses.loc[nearest].max():.1f} % of its end"
-        )
+        worst = misses.max(axis=1, skipna=False).dropna()
+        if len(worst):
+            together += (
+                f". At {worst.idxmin():g} they come nearest: each lies within its accepted interval or misses it by at "
+                f"most {100.0 * worst.min():.1f} % of its end"
+            )
     return (
         f"With another friction, from {table.index.min():g} to {table.index.max():g}, these numbers of the paper come "
         f"out: {', '.join(texts)}. {together}"
@@ -280,19 +289,25 @@ def second_velocity(
     *,
     euler: pd.DataFrame,
     converged: pd.DataFrame,
+    fine: pd.DataFrame,
     tension: pd.DataFrame,
     frictions: pd.DataFrame,
     velocities_of: dict[str, list[float | None]],
 ) -> Finding:
-    """Decrease (cm/s) of the velocity of the second state over the interval with two states."""
+    """Decrease (cm/s) of the velocity of the second state over the interval with two states.
+
+    fine : converged runs at more amplitudes, from which the note takes the minimum
+    """
     ends = by_method(lambda table: velocities(table, "second"), euler, converged)
-    medians = 100.0 * converged[converged.state == "second"].groupby("acceleration").mean_velocity.median()
+    medians = 100.0 * fine[fine.state == "second"].groupby("acceleration").mean_velocity.median()
     described = describe_tensions(tension, lambda rows: "{:.2f} to {:.2f} cm/s".format(*velocities(rows, "second")))
     within = medians.loc[slice(*two_states(converged))]
     largest = (within.cummax() - within).max()
+    low, high = velocities_of["fall"]
+    other = ", which would be accepted: the verdict depends on the reading" if low <= largest <= high else ""
     least = (
-        f"Its minimum, {within.min():.2f} cm/s, is at {within.idxmin():g} m/s², so that its largest fall within the "
-        f"interval is {largest:.4g} cm/s. "
+        f"Its minimum, {within.min():.3f} cm/s, is at {within.idxmin():g} m/s²; the largest fall within the interval "
+        f"is {largest:.4g} cm/s{other}. "
         if len(within)
         else ""
     )
@@ -320,25 +335,29 @@ def fit(*, euler: pd.DataFrame, converged: pd.DataFrame, regression: pd.DataFram
     low, high = regression.attrs["acceleration"]
     edges = by_method(lambda table: table[table.is_critical & table.acceleration.between(low, high)], euler, converged)
     every = edges["converged"]
-    shared = every[every.acceleration.isin(edges["euler"].acceleration)]
+    shared = {
+        method: edge[edge.acceleration.isin(edges[other].acceleration)]
+        for (method, edge), other in zip(edges.items(), reversed(edges), strict=True)
+    }
 
     def error(edge: pd.DataFrame) -> float:
-        return float(hyperbola.mean_squared_error(edge.acceleration.to_numpy(), edge.z0.to_numpy(), paper))
+        data = edge.acceleration.to_numpy(), edge.z0.to_numpy()
+        return float(hyperbola.mean_squared_error(*data, paper)) if len(edge) else NONE
 
     distances = (hyperbola.critical_height(every.acceleration, paper) - every.z0).abs()
     where = every.acceleration[distances.idxmax()]
     valley = flat_part(regression)
     note = (
-        f"Both errors are means over the {len(shared)} amplitudes of the paper's method, in steps of "
-        f"{amplitude_step(shared):g} m/s². The paper's axis is unknown, and the verdict can depend on it: over the "
-        f"{len(every)} amplitudes in steps of {amplitude_step(every):g} m/s², the converged error is "
-        f"{error(every):.2e} m². The curve with the paper's coefficients misses the converged heights by at most "
+        f"Both errors are means over the {len(shared['converged'])} amplitudes at which both methods have a critical "
+        "height. The paper's axis is unknown, and the verdict can depend on it: over all "
+        f"{len(every)} amplitudes of the converged heights, the error is {error(every):.2e} m². The curve with "
+        "the paper's coefficients misses the converged heights by at most "
         f"{1e3 * MM * distances.max():.0f} µm (at {where:g} m/s²; median {1e3 * MM * distances.median():.0f} µm). The "
         f"coefficients themselves are poorly determined: the best ones are A = {best.A:.4g} m²/s², "
         f"B = {best.B:.4g} m/s² and C = {best.C:.4g} m, and every B from {valley.B.min():.4g} to "
         f"{valley.B.max():.4g} m/s² with its best A and C fits no worse than the paper's"
     )
-    return Finding({"paper_error": error(edges["euler"])}, {"paper_error": error(shared)}, note)
+    return Finding(*({"paper_error": error(edge)} for edge in shared.values()), note)
 
 
 def find_runs(x: ArrayLike, chosen: ArrayLike) -> list[tuple[float, float]]:
