@@ -77,7 +77,7 @@ VARIED = 33  # different phases, of 64
 COARSE = 20.0  # steps of the readings; with more noise, chance puts few samples on a line at any number of phases
 # Readings that a slower channel holds: least share in each piece, and its product with the median of the other changes
 # in steps, which is about 0.3 for a wave and for noise, at any size of the steps.
-HELD, MOVING = 0.1, 1.5
+HELD, MOVING = 0.1, 2.0
 CYCLES = {2: "second", 3: "third", 4: "fourth"}
 WEAK = 2.0  # times as strong as the fundamental: a harmonic that may be the drive itself
 # Strips at the extreme, in halves of the span of the values; ratio of the first to the second; and how many times the
