@@ -3,6 +3,9 @@
 import numpy as np
 import pandas as pd
 from filled_captions import caption
+from project import si_config
+
+from conveyor_pipeline.machine.operating.body_limits import MOTIONS
 
 
 def test_grey_parts_of_the_map_of_tracks_are_explained():
@@ -66,3 +69,14 @@ def test_the_largest_share_of_parts_that_move_back_is_named_although_runs_failed
     )
     still = table.assign(back=0.0)
     assert "move back" not in caption("transit", transit=still, **tables)
+
+
+def test_statements_on_shapes_have_standard_errors_and_are_about_the_papers_conveyor():
+    bodies = pd.DataFrame({"acceleration": [21.0]})
+    bodies.attrs = {"effort": 1.0, "model": si_config()["model"]}
+    rows = [(motion, 21.0, difference, 0.007) for motion in MOTIONS for difference in (-0.01, 0.03)]
+    shapes = pd.DataFrame(rows, columns=["motion", "acceleration", "difference", "difference_stderr"])
+    text = caption("bodies", bodies=bodies, shapes=shapes)
+    assert "found 3 %, standard error 0.7 %, so that it does not hold" in text
+    assert "with standard errors of 0.7, 0.7 and 0.7 %" in text
+    assert "Statements of ours" not in caption("bodies", paper=False, bodies=bodies, shapes=shapes)

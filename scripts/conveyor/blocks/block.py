@@ -63,7 +63,7 @@ class BlockRun:
     status : "ok", or why the run ended early; all numbers but largest_tilt are then NaN
     x_end : position of the centre at the end, m
     largest_tilt : largest size of the angle, rad; above π/2 the block has rolled over
-    airtime : share of the last quarter without contact
+    airtime : share of the last quarter without contact, in which all corners are above the plate
     impact_speed : largest speed of approach of a corner at an impact over the last quarter, m/s; 0 if there is none
     peak_force : largest sum of the contact forces at the ends of steps over the last quarter, N
     """
@@ -94,10 +94,12 @@ class BlockRun:
         plate in its middle position, so that a block without tilt has the z of a point.
         """
         times = check_array("times", times, 0.0, self.duration, "s", least=0)
-        # The run ends at its duration, so that the last step is the same for all times.
+        # The run ends at its duration, and a step ends where the last quarter begins, so that all steps are those of
+        # `simulate_block`.
         moments, place = np.unique(np.append(times.ravel(), self.duration), return_inverse=True)
         rows = pack(self.conveyor, self.start)[None]
-        (samples,), _ = follow(rows, self.block, np.array([self.tilt]), moments[None], tolerance=self.tolerance)
+        given = rows, self.block, np.array([self.tilt]), moments[None]
+        (samples,), _ = follow(*given, tolerance=self.tolerance, since=(1.0 - LAST) * self.duration)
         samples = samples[place.ravel()[:-1]]
         return {name: samples[:, k].reshape(times.shape) for k, name in enumerate(block_motion.SAMPLES)}
 

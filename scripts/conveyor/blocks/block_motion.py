@@ -51,9 +51,10 @@ BELOW = 2.0  # margins by which a corner may be below the plate in flight
 MAX_SEARCH = 1_000_000  # steps of a search for an impact, see solver.flight
 # Steps and events in one excitation cycle, on average, after which a run has failed.
 MAX_STEPS, MAX_EVENTS = 1_000_000, 10_000
-LONGEST = 0.05  # of an excitation cycle: a longer step might miss an event
-# On a track, a motion that after a block of cycles differs by this many tolerances from itself repeats itself.
-CYCLES, SAME = 12, 100.0
+LONGEST = 0.05  # of an excitation cycle, or of a shorter one of its harmonics: a longer step might miss an event
+# On a track, a motion that after a block of cycles differs by this many tolerances from itself repeats itself. A looser
+# tolerance than LOOSEST does not count, because a part that still accelerates would keep its velocity.
+CYCLES, SAME, LOOSEST = 12, 100.0, 1e-7
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0  # of the change of a step's length
 SHORTEST = 1e-15  # of an excitation cycle: a step that needs to be shorter has failed
 
@@ -130,7 +131,8 @@ def keep_sticking(now, state):
 @compiled
 def repeats(c, body, before, between):
     """Whether two states, one block of cycles apart, are the same motion."""
-    speed, depth = SAME * c.tolerance * c.scale_v, SAME * c.tolerance * c.scale_w * c.scale_w
+    tolerance = min(c.tolerance, LOOSEST)
+    speed, depth = SAME * tolerance * c.scale_v, SAME * tolerance * c.scale_w * c.scale_w
     reach = math.hypot(body.half_length, body.half_height)
     linear = abs(between[VX] - before[VX]) <= speed and abs(between[VZ] - before[VZ]) <= speed
     turning = (
@@ -162,6 +164,16 @@ def begin(c, body, parameters, tilt, state, now):
 
 
 @compiled_inline
+def longest_step(c):
+    """The duration (s) of the longest step of the contact."""
+    step = LONGEST * TURN / c.omega
+    if c.waves is None:
+        return step
+    # The mean order of the harmonics along the track, weighted with their accelerations.
+    return step * c.bounds.pull / c.bounds.pull_rate
+
+
+@compiled_inline
 def press(c, body, theta, state, limit, length, known, stages, after, between, now):
     """A step of the contact from a phase (rad), which ends at its first event and takes at most `limit` (s).
 
@@ -178,7 +190,7 @@ def press(c, body, theta, state, limit, length, known, stages, after, between, n
     while True:
         if not known:
             corners.derive(c, body, theta, state, now, stages[0])
-        lapse = min(length, LONGEST * TURN / c.omega, limit)
+        lapse = min(length, longest_step(c), limit)
         error = take_step(c, body, theta, state, lapse, stages, after, now)
         tried += 1
         if error <= 1.0:

@@ -106,6 +106,28 @@ def test_samples_do_not_change_the_motion_and_count_from_the_middle_position_of_
     assert run.largest_tilt >= np.abs(run.sample(np.linspace(0.0, 0.3, 2001))["angle"]).max() - 1e-6
 
 
+def test_samples_of_a_long_chaotic_run_are_those_of_the_run():
+    """A step ends at the beginning of the last quarter; if it did not, a rounding would grow until the end."""
+    run = simulate_block(Conveyor(acceleration=60.0), FLAT, Start(z=3e-4), tilt=0.02, duration=10.0)
+    assert run.sample([10.0])["x"][0] == run.x_end
+
+
+@pytest.mark.long  # all code of blocks is compiled once more for plates with harmonics
+@pytest.mark.parametrize(("order", "stiffness"), [(100, 5e5), (20, 1e3)])
+def test_slip_that_reverses_within_a_short_cycle_of_a_harmonic_is_found(order, stiffness):
+    conveyor = Conveyor(acceleration=30.0, stiffness=stiffness, harmonics=[Harmonic(order, along=5.0)])
+    block = simulate_block(conveyor, replace(FLAT, inertia=LOCKED), duration=0.5)
+    assert block.mean_velocity() == pytest.approx(simulate(conveyor, duration=0.5).mean_velocity(), rel=1e-4)
+
+
+def test_a_part_that_still_accelerates_does_not_keep_its_velocity_with_a_loose_tolerance():
+    parameters = parameter_table(Conveyor(acceleration=40.0, friction=2e-4), z0=[3e-4])
+    options = {"length": 1e3, "longest": 60.0, "begin": 0.0}
+    locked = replace(FLAT, inertia=LOCKED)
+    loose, tight = (block_transits(parameters, locked, 0.0, tolerance=own, **options) for own in (1e-3, 1e-8))
+    assert loose.velocity == pytest.approx(tight.velocity, rel=0.05)
+
+
 @pytest.mark.parametrize("friction", [0.0, 0.15])
 def test_the_work_of_plate_damper_and_friction_is_the_change_of_energy(friction):
     """Friction is known from the slip velocity, because sticking takes hardly any time in these impacts."""

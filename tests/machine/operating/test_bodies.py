@@ -1,5 +1,7 @@
 """Parts as blocks: starts above the plate, transit and advice of blocks, and the tables of shapes."""
 
+import math
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -74,6 +76,13 @@ def test_tables_of_shapes():
     # The block touches the plate with one corner at the time zero.
     first = landing[landing.time == 0.0].iloc[0]
     assert min(first.rear, first.front) == pytest.approx(first.plate, abs=1e-6)
+
+
+def test_the_difference_of_two_medians_has_the_errors_of_both():
+    blocks = {"velocity_50": 0.11, "velocity_50_stderr": 0.003}
+    points = {"velocity_50": 0.1, "velocity_50_stderr": 0.004}
+    assert bodies.relative_difference(blocks, points) == pytest.approx((0.1, math.hypot(0.03, 1.1 * 0.04)))
+    assert np.isnan(bodies.relative_difference(blocks, points | {"velocity_50": 0.0})).all()
 
 
 def test_a_part_length_that_contradicts_the_body_is_refused():

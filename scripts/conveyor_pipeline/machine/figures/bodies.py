@@ -9,7 +9,6 @@ from conveyor_pipeline.figures import style
 from conveyor_pipeline.machine.operating.body_limits import MOTIONS, RIGHT
 
 COLOURS = ("0.25", "#0072B2", "#D55E00", "#009E73")
-TITLES = {"ride": "points ride", "coexist": "points ride or jump", "chaos": "chaos"}
 
 
 def draw_landing(axes: Axes, landing: pd.DataFrame) -> None:
@@ -42,7 +41,9 @@ def draw_map(axes: Axes, shapes: pd.DataFrame, motion: str) -> None:
             axes.text(
                 row.length, row.height, text, ha="center", va="center", color="white" if right else "black", fontsize=7
             )
-    axes.set(xscale="log", yscale="log", xlabel=r"length in $g\,\cos\alpha/\omega^2$", title=TITLES[motion])
+    axes.set(xscale="log", yscale="log", xlabel=r"length in $g\,\cos\alpha/\omega^2$")
+    first = rows.iloc[0]
+    axes.set_title(f"{first.acceleration:.3g} m/s²: {100.0 * first.points_ride:.0f} % of points ride")
     axes.margins(0.12)
 
 

@@ -4,6 +4,9 @@ All lengths are in units of g cos α/ω². Parts are equal but for their shape, 
 track is short, so that parts which ride do not arrive: their velocity is that over the longest time.
 """
 
+import itertools
+import math
+
 import numpy as np
 import pandas as pd
 
@@ -44,11 +47,13 @@ TABLES = {
     ),
     "body_shapes": (
         fields.number("acceleration", "m/s²", "amplitude of the excitation"),
-        fields.text("motion", "what points do there: ride, coexist (ride or jump), or chaos"),
+        fields.text("motion", "what points do there on the paper's conveyor: ride, coexist (ride or jump), or chaos"),
+        fields.number("points_ride", "1", "share of the points without a flight after the drop onto the track"),
         LENGTH,
         HEIGHT,
         *MEASURED,
         fields.number("difference", "1", "relative difference of the median from that of points"),
+        fields.number("difference_stderr", "1", "its standard error"),
     ),
     "landing": (
         fields.number("time", "1", "time after the first corner touches the plate, in excitation cycles"),
@@ -97,6 +102,15 @@ def measure(rows: np.ndarray, shape: tuple[float, float] | None, settings: dict,
     return measures
 
 
+def relative_difference(blocks: dict, points: dict) -> tuple[float, float]:
+    """The relative difference between the medians of two populations, and its standard error; NaN if points stay."""
+    median, reference = blocks["velocity_50"], points["velocity_50"]
+    if not reference:
+        return np.nan, np.nan
+    error = math.hypot(blocks["velocity_50_stderr"], median / reference * points["velocity_50_stderr"])
+    return median / reference - 1.0, error / abs(reference)
+
+
 def landing_of(row: np.ndarray, shape: tuple[float, float], cycles: np.ndarray) -> pd.DataFrame:
     """Where the lower corners of a block are at times (excitation cycles) after the first of them touches the plate.
 
@@ -134,21 +148,19 @@ def make(settings: dict, *, progress: str | None = None) -> dict[str, pd.DataFra
     rows = population(throws / unit, curves, IDENTICAL)
     table = pd.DataFrame([row for shape in (None, *SHAPES) for row in measure(rows, shape, curves, progress)])
     table["throw_number"] = np.tile(throws, len(SHAPES) + 1)
-    cells = {**settings, "starts": max(4, round(effort * body_limits.OF_A_CELL))}
     side = max(2, round(effort * CELLS))
-    rows = population(np.array(list(MOTIONS.values())) / unit, cells, IDENTICAL)
-    many = {**settings, "starts": max(4, round(effort * body_limits.POINTS))}
-    reference = population(np.array(list(MOTIONS.values())) / unit, many, IDENTICAL)
-    points = [one["velocity_50"] for one in measure(reference, None, many, progress)]
+    lengths, heights = logarithmic(LENGTHS, side), logarithmic(SLENDERNESS, side)
     shapes = []
-    for length in logarithmic(LENGTHS, side):
-        for height in logarithmic(SLENDERNESS, side):
-            for motion, own, point in zip(
-                MOTIONS, measure(rows, (length, height), cells, progress), points, strict=True
-            ):
-                difference = own["velocity_50"] / point - 1.0 if point else np.nan
-                shapes.append({"motion": motion, **own, "difference": difference})
-    first = rows[list(MOTIONS).index("coexist") * cells["starts"]].copy()
+    for motion, throw in MOTIONS.items():
+        many = {**settings, "starts": max(4, round(effort * body_limits.POINTS))}
+        cells = {**settings, "starts": max(4, round(effort * body_limits.OF_A_CELL[motion]))}
+        (points,) = measure(population(np.array([throw]) / unit, many, IDENTICAL), None, many, progress)
+        rows = population(np.array([throw]) / unit, cells, IDENTICAL)
+        for shape in itertools.product(lengths, heights):
+            (blocks,) = measure(rows, shape, cells, progress)
+            compared = dict(zip(("difference", "difference_stderr"), relative_difference(blocks, points), strict=True))
+            shapes.append({"motion": motion, "points_ride": points["rides"], **blocks, **compared})
+    (first,) = population(np.array([MOTIONS["coexist"]]) / unit, {**settings, "starts": 1}, IDENTICAL)
     first["psi0"], first["z0"] = LANDING_PHASE, 3.0 * length_and_speed_units(first)[0]
     landing = landing_of(first, SHAPES[0], OUTLINES)
     return {"bodies": table, "body_shapes": pd.DataFrame(shapes), "landing": landing}
