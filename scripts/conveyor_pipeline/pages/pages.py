@@ -10,8 +10,6 @@ A template is Markdown (or YAML) with Jinja fields. It can use the facts of fact
     keys              all keys of the config by section, with the values of the default config
     entries           entries of the sections of the paper's config, with their comments
     modules           modules of the library by package
-    proved            the page of what is proved
-    columns           the page of all tables and their columns
     figure(name)      a figure with its caption, in the markup of the medium
     cell(text)        a text for a cell of a table
     interval(low, high)   an accepted interval in words
@@ -138,8 +136,6 @@ def make(
     facts: str,
     captions: list[str] = (),
     uncertainty: str = "{}",
-    proved: str = "",
-    columns: str = "",
     medium: str = "site",
     folder: str = "",
     config: list[str] = (),
@@ -153,7 +149,6 @@ def make(
     facts : as facts.py makes them, as JSON
     captions : of all figures, in order
     uncertainty : changes of the claims with tighter tolerances, as JSON
-    proved, columns : for templates, as above
     medium : print or site
     folder : folder of the figures, relative to the page
     config : texts of the default config files
@@ -171,8 +166,6 @@ def make(
         "figures": described,
         "tightened": len(changes),
         "same_verdicts": sum(one["same_verdict"] for one in changes.values()),
-        "proved": proved,
-        "columns": columns,
         "gaps": find_gaps(defaults),
         "keys": group_keys(known, defaults),
         "entries": list_entries(known, defaults),

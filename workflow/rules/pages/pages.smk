@@ -49,7 +49,6 @@ ARTICLE_PARTS = {
     "config": [os.path.relpath(file) for file in DEFAULT_FILES],
     "captions": caption_files(),
     "uncertainty": result("uncertainty.json"),
-    "proved": f"{DOCS}certificates.md",
 }
 # Figures of the paper's conveyor that README and guides show.
 PICTURES = ("overview", "work_precision", "fig04")
@@ -65,7 +64,7 @@ STAGE_MODULES = [module for package in STAGES.values() for module in modules(f"{
 rule page:
     """A page of the documentation."""
     input:
-        unpack(lambda wildcards: PAGES[wildcards.page]),
+        unpack(inputs_of_page),
         template=source("workflow/templates/{page}.md"),
     output:
         f"{DOCS}{{page}}.md",
@@ -167,7 +166,6 @@ rule site_pages:
         **ARTICLE_PARTS,
         templates=SITE_TEMPLATES,
         schema=source("config/schema.json"),
-        columns=f"{DOCS}tables.md",
     output:
         SITE_PAGES,
     log:
@@ -202,7 +200,7 @@ rule site:
         pages=[
             *SITE_PAGES,
             source("scripts/conveyor/README.md"),
-            f"{DOCS}checked.md",
+            *(f"{DOCS}{page}.md" for page in PAGES),
         ],
         guides=sources("docs/guides/*.md"),
         # Pages and pictures of other conveyors, and pictures of the paper's figures, to which the guides refer.
