@@ -12,7 +12,7 @@ from .analysis.attractors.attractor_table import ChaoticSets
 from .analysis.attractors.identity import Attractor, Attractors
 from .columns import Columns
 from .ensemble import sweep
-from .packing import as_rows, as_table, check_row, parameter_table
+from .packing import as_rows, as_table, check_row, parameter_table, plate_peaks
 from .parameters import DEFAULT_TOLERANCE, LAST
 from .progress import progress_bar
 from .solver import contact
@@ -20,6 +20,8 @@ from .solver.model import FREQUENCY, Conveyor
 
 SAMPLES = 256
 CYCLES = 2048  # excitation cycles over which a mean velocity is taken, whole periods up to MAX_PERIOD
+SETTLED = 1e-3  # largest relative change of the mean velocity of a periodic motion after twice as many cycles
+NEGLIGIBLE = 1e-6  # of the plate's largest velocity: a change that does not count
 
 
 def attractors(
@@ -46,7 +48,8 @@ def attractors(
     Returns
     -------
     Attractors: `found`, each with its state of motion, period, orbit (with multipliers), states once per cycle, mean
-    feeding velocity (m/s) and share of the samples; and `columns` of them
+    feeding velocity (m/s) and share of the samples; and `columns` of them. The mean velocity is that of 2048 cycles.
+    For a periodic motion it is NaN if it has not settled by then, as with little friction or where a part slides away.
 
     Examples
     --------
@@ -133,14 +136,21 @@ def with_velocities(
     starts = stroboscopic_map.pack_states(np.tile(row, (len(found), 1)), np.array(states).reshape(-1, 2), tolerance)
     periods = np.array([max(one.period, 1) for one in found])
     whole = periods * np.ceil(CYCLES * LAST / periods) / LAST
-    runs = sweep(as_table(starts), duration=whole / row[FREQUENCY], tolerance=tolerance)
+    durations = whole / row[FREQUENCY]
+    velocities = sweep(as_table(starts), duration=durations, tolerance=tolerance).mean_velocity
+    is_periodic = np.array([one.period > 0 for one in found], dtype=np.bool_)
+    periodic = as_table(starts[is_periodic])
+    longer = sweep(periodic, duration=2.0 * durations[is_periodic], tolerance=tolerance).mean_velocity
+    change = np.abs(longer - velocities[is_periodic])
+    is_settled = change <= SETTLED * np.abs(longer) + NEGLIGIBLE * plate_peaks(periodic).vx
+    velocities[is_periodic] = np.where(is_settled, velocities[is_periodic], np.nan)
     return [
         one._replace(
             strobes=one.strobes if one.period else state[None],
             mean_velocity=float(velocity),
             share=float(np.mean(numbers == k)),
         )
-        for k, (one, state, velocity) in enumerate(zip(found, states, runs.mean_velocity, strict=True))
+        for k, (one, state, velocity) in enumerate(zip(found, states, velocities, strict=True))
     ]
 
 

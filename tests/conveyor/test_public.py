@@ -656,6 +656,13 @@ def test_a_chaotic_transient_in_which_no_sample_ends_is_no_attractor():
     assert [(one.state, one.share, np.isfinite(one.mean_velocity)) for one in found] == [("chaos", 1.0, True)]
 
 
+@pytest.mark.parametrize(("values", "known"), [({}, True), ({"friction": 1e-4}, False), ({"inclination": 0.3}, False)])
+def test_an_attractor_has_a_mean_velocity_if_it_settles(values, known):
+    """With little friction, parts still accelerate after 2048 cycles; on a steep track they slide away."""
+    found = conveyor.attractors(Conveyor(**{"acceleration": 40.0, "friction": 0.15} | values), samples=32).found
+    assert [(one.state, np.isfinite(one.mean_velocity)) for one in found] == [("second", known), ("first", known)]
+
+
 def test_a_basin_names_attractors_beyond_the_samples():
     """From some millimetres, parts reach motions of three and more cycles that no sample reaches."""
     one = Conveyor(acceleration=37.3634, damping=0.0595)

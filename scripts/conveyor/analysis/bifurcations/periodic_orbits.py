@@ -70,7 +70,8 @@ class ReturnMap:
     """The n-th power of the stroboscopic map and its fixed points, in scaled unknowns u = (δ, Y, λ).
 
     λ is a parameter of the conveyor, by default the amplitude. The units are g/ω² (m), g/ω (m/s) and 1 m/s², which
-    makes the three comparable; the unit of any other parameter is a share of its value. A map that fails gives NaN.
+    makes the three comparable; the unit of any other parameter is a share of its value, of an inclination a share of
+    1 rad. A map that fails gives NaN.
     """
 
     def __init__(self, parameters: np.ndarray, period: int, parameter: str = "acceleration"):
@@ -78,7 +79,8 @@ class ReturnMap:
         self.period, self.parameter, self.column = period, parameter, PARAMETERS.index(parameter)
         scale = 1.0
         if parameter != "acceleration":
-            scale = (abs(parameters[self.column]) or 1.0) / UNITS_IN_VALUE
+            value = 1.0 if parameter == "inclination" else abs(parameters[self.column])
+            scale = (value or 1.0) / UNITS_IN_VALUE
         self.unit = np.array([*length_and_speed_units(parameters), scale])
         self.known = contact.constants(parameters, ORBIT_TOLERANCE)
 

@@ -237,3 +237,11 @@ def test_the_product_of_multipliers_is_not_rounding_where_damping_is_strong(conv
     orbit = periodic_orbit(conveyor, Start())
     expected = -conveyor.damping / conveyor.mass * orbit.contact_time
     assert math.log(orbit.determinant) == pytest.approx(expected, rel=1e-6)
+
+
+def test_a_branch_in_the_inclination_may_begin_at_a_track_that_is_nearly_level():
+    orbit = periodic_orbit(Conveyor(acceleration=40.0, inclination=1e-3), Start(z=3e-4))
+    branch = continue_orbit(orbit, "inclination", (-0.05, 0.05))
+    assert branch.ends == ("limit", "limit") and len(branch.orbits) < 200
+    assert "ends" not in repr(branch)
+    assert "; ends: step and limit" in repr(branch._replace(ends=("step", "limit")))
