@@ -289,7 +289,9 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
     state, after, between, before = no_refcount((states[0], states[1], states[2], states[3]))
     for i in range(len(parameters)):
         c = contact.compute_constants(parameters[i], tolerance, harmonics)
-        body = corners.Body(0.5 * bodies[i, 0], 0.5 * bodies[i, 1], bodies[i, 2])
+        z0, vz0 = parameters[i, Z0], parameters[i, VZ0]
+        fall = (0.0 if math.isnan(z0) else abs(z0)) + 0.5 * vz0 * vz0 / c.gravity
+        body = corners.Body(0.5 * bodies[i, 0], 0.5 * bodies[i, 1], bodies[i, 2], fall)
         end, cycles = times[i, -1], 1.0 + times[i, -1] * c.omega / TURN
         code, result = OK, results[i]
         theta, t = c.psi0 % TURN, 0.0

@@ -36,11 +36,11 @@ FREE, STICK, FORWARD, BACKWARD = 0.0, 1.0, 2.0, 3.0
 # of their heights nor a slow rotation decides.
 REGULAR = 1e-5
 LEAST_SHARE = 1e-6  # of the friction, for a corner that hardly touches the plate
-ROUNDING = 1e-15  # share of the height of a centre by which rounding can change a gap
+ROUNDING = 1e-15  # share of the largest height of a centre by which rounding can change a gap
 # The smallest size that counts as a step over a limit: of a gap (m), a slip velocity (m/s) and a force per mass (m/s²).
 Margins = namedtuple("Margins", "gap slip force")
-# Half of the length and of the height (m), and the moment of inertia per mass (m²).
-Body = namedtuple("Body", "half_length half_height inertia")
+# Half of the length and of the height (m), the moment of inertia per mass (m²), and the height (m) from which it falls.
+Body = namedtuple("Body", "half_length half_height inertia fall")
 
 
 @compiled_inline
@@ -48,7 +48,7 @@ def margins_of(c, body):
     """The Margins at the tolerance of a conveyor, given by its contact.Constants."""
     speed = c.scale_v + (c.a_x + c.gravity) / c.omega
     reach = math.hypot(body.half_length, body.half_height)
-    gap = max(c.tolerance * c.scale_w * c.scale_w, ROUNDING * (reach + c.bounds.height))
+    gap = max(c.tolerance * c.scale_w * c.scale_w, ROUNDING * (reach + c.bounds.height + body.fall))
     return Margins(gap, 0.1 * c.tolerance * speed, c.tolerance * c.gravity)
 
 

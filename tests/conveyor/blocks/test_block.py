@@ -319,6 +319,14 @@ def test_the_fast_motion_of_a_flat_block_rocks_from_edge_to_edge_in_two_cycles()
     assert angle.min() < -0.1 and angle.max() > 0.1
 
 
+@pytest.mark.parametrize(("stiffness", "z", "tolerance"), [(1e9, 10.0, 1e-8), (1e11, 0.5, 1e-8), (1e7, 0.5, 1e-10)])
+def test_a_block_that_falls_from_a_height_onto_a_stiff_plate_is_followed(stiffness, z, tolerance):
+    """Rounding of the height is then larger than the depth that the tolerance allows."""
+    conveyor = Conveyor(acceleration=40.0, stiffness=stiffness)
+    run = simulate_block(conveyor, FLAT, Start(z=z), tilt=0.02, duration=3.0, tolerance=tolerance)
+    assert run.status == "ok"
+
+
 def test_a_block_may_roll_over():
     run = simulate_block(Conveyor(acceleration=120.0), Block(3e-3, 3e-3), Start(z=3e-4), tilt=0.1)
     assert run.status == "ok"
