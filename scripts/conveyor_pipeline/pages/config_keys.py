@@ -4,7 +4,8 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-import yaml
+from ruamel.yaml import YAML
+from ruamel.yaml.nodes import CollectionNode, MappingNode, Node
 
 from conveyor_pipeline.config.schema import options_of
 
@@ -119,10 +120,10 @@ def parse_file(text: str) -> Iterator[FileKey]:
     """All keys in the text of a YAML file. Comments belong to the first key of their line."""
     lines = text.splitlines()
 
-    def parse_node(node: yaml.Node, path: tuple[str, ...]) -> Iterator[FileKey]:
-        for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
+    def parse_node(node: Node, path: tuple[str, ...]) -> Iterator[FileKey]:
+        for key, value in node.value if isinstance(node, MappingNode) else ():
             line, column = key.start_mark.line, key.start_mark.column
-            is_block = isinstance(value, yaml.CollectionNode) and not value.flow_style
+            is_block = isinstance(value, CollectionNode) and not value.flow_style
             source = "" if is_block else " ".join(text[value.start_mark.index : value.end_mark.index].split())
             is_first = not lines[line][:column].strip()
             comments = (comment_of(lines[line]), comment_above(lines, line)) if is_first else ("", "")
@@ -131,4 +132,4 @@ def parse_file(text: str) -> Iterator[FileKey]:
             if value.start_mark.index > key.start_mark.index:
                 yield from parse_node(value, (*path, key.value))
 
-    yield from parse_node(yaml.compose(text), ())
+    yield from parse_node(YAML(typ="safe").compose(text), ())
