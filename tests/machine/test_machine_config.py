@@ -11,6 +11,14 @@ WRONG = [
         {"operating": {"acceleration": ["0.5 mm peak to peak"]}, "model": {"frequency": 100}},
         "0.5 mm zero to peak are 197.4 m/s², and 0.5 mm peak to peak are 98.7 m/s²",
     ),
+    ({"body": {"length": "5 mm", "tilt": 0.1}}, "body.height is missing; give it in m (height of the part)"),
+    (
+        {"parts": {"friction": 15}},
+        "parts.friction = 15 should be at most 1 (of the value in the model); this is a share: write 15 % or 0.15",
+    ),
+    ({"advice": {"margin": 2.5}}, "(of the amplitude); this is a share: write 2.5 % or 0.025"),
+    ({"drive": {"back": 5}}, "(of the parts); this is a share: write 5 % or 0.05"),
+    ({"calibration": {"noise": "3"}}, "(of the velocity); this is a share: write 3 % or 0.03"),
     ({"calibration": {"ranges": {"angle": [0.1, 16]}}}, "16° are 0.2793 rad"),
     ({"calibration": {"ranges": {"friction": [0.4, 0.1]}}}, "is reversed"),
     (
@@ -79,6 +87,8 @@ def test_an_error_names_key_and_remedy(overlay, message):
 
 def test_numbers_of_the_machine_may_have_a_unit():
     transit = {"acceleration": {"start": "1 g", "stop": "9 g"}, "length": "50 cm"}
-    own = canonical(merged(read_config(), {"prefix": "mine", "parts": {"friction": "10 %"}, "transit": transit}))
+    shares = {"parts": {"friction": "10 %"}, "advice": {"margin": "2 %"}}
+    own = canonical(merged(read_config(), {"prefix": "mine", "transit": transit, **shares}))
     transit = {"acceleration": {"start": 9.80665, "stop": 88.25985}, "length": 0.5}
-    assert own == canonical(merged(read_config(), {"prefix": "mine", "parts": {"friction": 0.1}, "transit": transit}))
+    shares = {"parts": {"friction": 0.1}, "advice": {"margin": 0.02}}
+    assert own == canonical(merged(read_config(), {"prefix": "mine", "transit": transit, **shares}))

@@ -53,8 +53,11 @@ WRONG = [
         "sweeps.mine.axes.angle.num = 0 should be at least 1",
     ),
     ({"sweeps": {"mine": {"axes": {"mass": [1.0e-3, -1.0]}}}}, "sweeps.mine.axes.mass[1] = -1.0 should be at least"),
-    ({"sweeps": {"mine": {"axes": {"z0": {"start": 0.0}}}}}, "sweeps.mine.axes.z0.stop is missing"),
-    ({"sweeps": {"mine": {"duration": 1.0}}}, "sweeps.mine.axes is missing"),
+    (
+        {"sweeps": {"mine": {"axes": {"z0": {"start": 0.0}}}}},
+        "sweeps.mine.axes.z0.stop is missing; give it in m (initial",
+    ),
+    ({"sweeps": {"mine": {"duration": 1.0}}}, "sweeps.mine.axes is missing; give it (axes of the table: lists of"),
     ({"sweeps": {"mine": {**MINE, "model": {"z0": 1.0e-4}}}}, "sweeps.mine.model.z0 is an axis of this entry too"),
     (
         {"sweeps": {"amplitudes": {"axes": {"damping": [0.1, 0.3]}}}},
@@ -68,6 +71,10 @@ WRONG = [
         "sweeps.mine.step = 3e-07 s does not divide its duration of 1 s; take 3.0000003e-07, or another duration",
     ),
     ({"estimates": {"phase": {"last": 1}}}, "estimates.phase.last = 1 should be less than 1 (of the duration)"),
+    (
+        {"estimates": {"phase": {"last": 25}}},
+        "estimates.phase.last = 25 should be less than 1 (of the duration); this is a share: write 25 % or 0.25",
+    ),
     (
         {"figures": {"fig03": {"tables": {"euler": "sweeps/none"}}}},
         "figures.fig03.tables.euler = 'sweeps/none'",
@@ -148,6 +155,14 @@ WRONG = [
         {"orbits": {"model": {"static_friction": 0.1}}},
         "orbits.model has static_friction = 0.1 below friction = 0.15; give a larger static_friction, or leave it out",
     ),
+    (
+        {"prefix": "mine", "model": {"exponent": 1.0}},
+        "model.exponent = 1.0 changes the unit of model.stiffness; state model.stiffness in N/m too",
+    ),
+    (
+        {"prefix": "mine", "model": {"exponent": 2}},
+        "model.exponent = 2.0 changes the unit of model.stiffness; state model.stiffness in N/m^2 too",
+    ),
     ({"model": {"inclination": 3.0}}, "model.inclination = 3.0 should be at most 1.4 (rad); angles are in radians"),
     # crashed the check of earlier versions, or ran without end
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "euler = 'model/acceleration' is unknown"),
@@ -199,6 +214,8 @@ def test_configs_are_valid():
         {"model": {"static_friction": 0.15}},
         {"prefix": "mine", "model": {"static_friction": 0.2}},
         {"prefix": "mine", "model": {"friction": 0.0, "static_friction": 0.1}},
+        {"prefix": "mine", "model": {"exponent": 1.0, "stiffness": "35 N/mm"}},
+        {"estimates": {"phase": {"last": "25 %"}}},
         {"figures": {"fig03": {"section": r"$\dot{x}_p$ über $\hat{a}$ {braces} {}"}}},
         {"certificates": {"doublings": 4.0}, "solver": {"settling": 2.0e4}},
         {"sweeps": {"amplitudes": {"axes": {"acceleration": {"start": 20, "num": 20.0}}}}},
@@ -209,6 +226,11 @@ def test_configs_are_valid():
 )
 def test_a_valid_overlay_has_no_errors(overlay):
     assert problems(merged(CONFIG, overlay)) == []
+
+
+def test_a_stiffness_may_keep_its_number_in_another_unit():
+    overlay = {"prefix": "mine", "model": {"exponent": 1.0, "stiffness": CONFIG["model"]["stiffness"]}}
+    assert problems(merged(CONFIG, overlay), stated=overlay) == []
 
 
 def test_methods_make_a_table_each():

@@ -58,13 +58,15 @@ def supply(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     own, frequency = config["supply"], config["model"]["frequency"]
     is_given = own != defaults["supply"] or stated.get("supply", own) != own
     if "resonance" not in own and is_given:
-        yield "supply.resonance is missing; without it, the range of the amplitude is not known"
+        remedy = "give the resonance (Hz) of the drive with its load, or remove the section supply"
+        yield f"supply.resonance is missing; {remedy}"
     if "resonance" not in own:
         return
     resonance = f"supply.resonance = {own['resonance']!r} Hz"
     remedy = "give the resonance in which the drive with its load moves along the direction of vibration"
     if own["resonance"] > FARTHEST * frequency:
-        yield f"{resonance} is more than {FARTHEST:g} times model.frequency = {frequency!r} Hz; {remedy}"
+        limit = f"at most {FARTHEST * frequency:g} Hz, or check model.frequency"
+        yield f"{resonance} is more than {FARTHEST:g} times model.frequency = {frequency!r} Hz; {remedy}, {limit}"
     # Unbalanced masses and voice coils may run far above the resonance of soft springs, an electromagnet cannot.
     if own["force"] == "voltage²" and FARTHEST * own["resonance"] < frequency:
         yield f"{resonance} is less than 1/{FARTHEST:g} of model.frequency = {frequency!r} Hz; {remedy}"
