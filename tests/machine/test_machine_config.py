@@ -11,6 +11,7 @@ WRONG = [
         {"operating": {"acceleration": ["0.5 mm peak to peak"]}, "model": {"frequency": 100}},
         "0.5 mm zero to peak are 197.4 m/s², and 0.5 mm peak to peak are 98.7 m/s²",
     ),
+    ({"model": {"frequency": 0.05}}, "SI units follow from model.frequency and model.angle: are they right?"),
     ({"body": {"length": "5 mm", "tilt": 0.1}}, "body.height is missing; give it in m (height of the part)"),
     (
         {"parts": {"friction": 15}},
@@ -60,6 +61,10 @@ WRONG = [
         {"transit": {"length": 500}, "model": {"inclination": -0.1}},
         "transit.length = 500.0 m is too long for transit.longest = 20.0 s",
     ),
+    (
+        {"transit": {"length": 500}, "model": {"inclination": 0.3}},
+        "transit.length = 500.0 m is too long for transit.longest = 20.0 s",
+    ),
     ({"drive": {"velocity": 20.0}}, "drive.velocity = 20.0 m/s cannot be reached, because the plate moves at most at"),
     ({"advice": {"changes": {"inclination": 5}}}, "5° are 0.0873 rad: write 5 deg"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
@@ -83,6 +88,12 @@ def test_lengths_with_a_unit_are_not_taken_for_millimetres(overlay, message):
 @pytest.mark.parametrize(("overlay", "message"), WRONG, ids=[message[:40] for _, message in WRONG])
 def test_an_error_names_key_and_remedy(overlay, message):
     assert_reported(overlay, message)
+
+
+def test_parts_may_slide_down_a_long_track():
+    """At an inclination of 0.3 rad, the friction of 0.15 does not stop them."""
+    overlay = {"prefix": "mine", "transit": {"length": 500}, "model": {"inclination": -0.3}}
+    assert problems(merged(read_config(), overlay)) == []
 
 
 def test_numbers_of_the_machine_may_have_a_unit():

@@ -1,6 +1,5 @@
 """Contradictions in the sections of the floor machine, as in config/checks.py."""
 
-import math
 from collections.abc import Iterator
 
 from conveyor import RANGES
@@ -172,9 +171,12 @@ def track(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     if has_gaps or length == defaults["transit"]["length"]:
         return
     speed = measurements.plate_velocity(max(ends(axis)), config["model"])
+    if length <= AMPLITUDE_ERROR * speed * longest:
+        return
+    from conveyor_pipeline.common.steepness import is_steep  # NumPy, see excitation
+
     # Parts may slide down a steep track faster than the plate ever moves.
-    slides = math.tan(-config["model"]["inclination"]) >= config["model"]["friction"]
-    if not slides and length > AMPLITUDE_ERROR * speed * longest:
+    if not (config["model"]["inclination"] < 0.0 and is_steep(config["model"])):
         reason = f"because the plate moves at most at {speed:.3g} m/s"
         remedy = f"{millimetres(stated, 'transit.length', length) or 'give a shorter track'}, or give more time"
         yield f"transit.length = {length!r} m is too long for transit.longest = {longest!r} s, {reason}; {remedy}"
