@@ -50,8 +50,11 @@ class Columns(Mapping[str, np.ndarray]):
         return len(self._arrays)
 
     def __getattr__(self, name: str) -> np.ndarray:
-        if name.startswith("_") or name not in self._arrays:
+        # A copy is asked for names such as __setstate__ before it has columns to list.
+        if name.startswith("_"):
             raise AttributeError(f"there is no column {name!r}")
+        if name not in self._arrays:
+            raise AttributeError(f"there is no column {name!r}; there are {', '.join(self)}")
         return self._arrays[name]
 
     def __dir__(self) -> list[str]:

@@ -143,6 +143,7 @@ def hertz_stiffness(part: Any, lining: Any, radius: float) -> float:
     low, high = RANGES["stiffness"]
     if not low <= stiffness <= high:
         raise ValueError(
-            f"part, lining and radius = {radius!r} m give {stiffness:g} N/m^1.5, outside [{low:g}, {high:g}]"
+            f"radius = {radius!r} m gives a stiffness of {stiffness:.3g} N/m^1.5, outside [{low:g}, {high:g}]; "
+            "give another radius or material"
         )
     return stiffness

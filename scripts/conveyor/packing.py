@@ -189,7 +189,9 @@ def check_rows(parameters: object) -> tuple[np.ndarray, tuple[int, ...]]:
         raise ValueError(f"{place_of(row, shape)}: {name} = {rows[row, column]!s} is outside {interval}")
     tension, friction, static_friction = rows[:, [model.TENSION, model.FRICTION, model.STATIC_FRICTION]].T
     for row in np.flatnonzero(tension % 1.0)[:1]:
-        raise ValueError(f"{place_of(row, shape)}: tension = {tension[row]!s} is no position in TENSION_MODES")
+        positions = ", ".join(f"{position} ({mode})" for position, mode in enumerate(TENSION_MODES))
+        fault = f"tension = {tension[row]!s} must be a position in TENSION_MODES: {positions}"
+        raise ValueError(f"{place_of(row, shape)}: {fault}")
     for row in np.flatnonzero(static_friction < friction)[:1]:
         coefficients = f"static_friction = {static_friction[row]!s} is below friction = {friction[row]!s}"
         raise ValueError(f"{place_of(row, shape)}: {coefficients}")

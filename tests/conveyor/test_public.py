@@ -1,5 +1,6 @@
 """The public interface: its examples run, and no odd argument makes it hang, give NaN with "ok" or a nameless error."""
 
+import copy
 import doctest
 import functools
 import importlib
@@ -266,6 +267,13 @@ def test_results_become_a_frame_with_their_parameters(tmp_path):
         runs.to_frame(TABLE)
 
 
+def test_an_unknown_column_is_named_with_the_known_ones():
+    """Also in a copy, which Python makes without calling __init__."""
+    columns = copy.copy(conveyor.Columns({"x_end": np.zeros(2), "vx_end": np.ones(2)}))
+    with pytest.raises(AttributeError, match=r"there is no column 'velocity'; there are x_end, vx_end$"):
+        _ = columns.velocity
+
+
 def test_a_frame_has_the_harmonics_of_the_plate():
     harmonic = {"order": 3, "along": 0.2, "along_phase": np.pi / 2.0}
     wavy = parameter_table(Conveyor(harmonics=[harmonic]), acceleration=[50.0])
@@ -400,7 +408,11 @@ def test_an_error_shows_no_unit_where_there_is_none():
 def test_contradictions_in_a_table_are_named(name, orbit):
     for parameter, value, words in (
         ("tension", 7.0, "tension = 7.0 is outside"),
-        ("tension", 0.5, "tension = 0.5 is no position"),
+        (
+            "tension",
+            0.5,
+            r"tension = 0.5 must be a position in TENSION_MODES: 0 \(allow\), 1 \(frictionless\), 2 \(clip\)",
+        ),
         ("static_friction", 0.1, "static_friction = 0.1 is below friction = 0.15"),
     ):
         with pytest.raises(ValueError, match=rf"parameters\[1\]: {words}"):

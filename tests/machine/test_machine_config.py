@@ -11,6 +11,15 @@ WRONG = [
         {"operating": {"acceleration": ["0.5 mm peak to peak"]}, "model": {"frequency": 100}},
         "0.5 mm zero to peak are 197.4 m/s², and 0.5 mm peak to peak are 98.7 m/s²",
     ),
+    ({"model": {"frequency": 0.05}}, "SI units follow from model.frequency and model.angle: are they right?"),
+    ({"body": {"length": "5 mm", "tilt": 0.1}}, "body.height is missing; give it in m (height of the part)"),
+    (
+        {"parts": {"friction": 15}},
+        "parts.friction = 15 should be at most 1 (of the value in the model); this is a share: write 15 % or 0.15",
+    ),
+    ({"advice": {"margin": 2.5}}, "(of the amplitude); this is a share: write 2.5 % or 0.025"),
+    ({"drive": {"back": 5}}, "(of the parts); this is a share: write 5 % or 0.05"),
+    ({"calibration": {"noise": "3"}}, "(of the velocity); this is a share: write 3 % or 0.03"),
     ({"calibration": {"ranges": {"angle": [0.1, 16]}}}, "16° are 0.2793 rad"),
     ({"calibration": {"ranges": {"friction": [0.4, 0.1]}}}, "is reversed"),
     (
@@ -52,6 +61,10 @@ WRONG = [
         {"transit": {"length": 500}, "model": {"inclination": -0.1}},
         "transit.length = 500.0 m is too long for transit.longest = 20.0 s",
     ),
+    (
+        {"transit": {"length": 500}, "model": {"inclination": 0.3}},
+        "transit.length = 500.0 m is too long for transit.longest = 20.0 s",
+    ),
     ({"drive": {"velocity": 20.0}}, "drive.velocity = 20.0 m/s cannot be reached, because the plate moves at most at"),
     ({"advice": {"changes": {"inclination": 5}}}, "5° are 0.0873 rad: write 5 deg"),
     ({"drive": {"velocity": 0}}, "drive.velocity = 0 should be more than 0 (m/s)"),
@@ -77,8 +90,16 @@ def test_an_error_names_key_and_remedy(overlay, message):
     assert_reported(overlay, message)
 
 
+def test_parts_may_slide_down_a_long_track():
+    """At an inclination of 0.3 rad, the friction of 0.15 does not stop them."""
+    overlay = {"prefix": "mine", "transit": {"length": 500}, "model": {"inclination": -0.3}}
+    assert problems(merged(read_config(), overlay)) == []
+
+
 def test_numbers_of_the_machine_may_have_a_unit():
     transit = {"acceleration": {"start": "1 g", "stop": "9 g"}, "length": "50 cm"}
-    own = canonical(merged(read_config(), {"prefix": "mine", "parts": {"friction": "10 %"}, "transit": transit}))
+    shares = {"parts": {"friction": "10 %"}, "advice": {"margin": "2 %"}}
+    own = canonical(merged(read_config(), {"prefix": "mine", "transit": transit, **shares}))
     transit = {"acceleration": {"start": 9.80665, "stop": 88.25985}, "length": 0.5}
-    assert own == canonical(merged(read_config(), {"prefix": "mine", "parts": {"friction": 0.1}, "transit": transit}))
+    shares = {"parts": {"friction": 0.1}, "advice": {"margin": 0.02}}
+    assert own == canonical(merged(read_config(), {"prefix": "mine", "transit": transit, **shares}))

@@ -24,7 +24,6 @@ WRONG = [
     ({"sweeps": {"mine": {**MINE, "methd": "euler"}}}, "sweeps.mine.methd is an unknown key; did you mean method?"),
     ({"model": {"angle": 12}}, "12° are 0.2094 rad"),
     ({"model": {"z0": "conveyer"}}, "or the word conveyor"),
-    ({"model": {"frequency": 0.05}}, "SI units follow from model.frequency and model.angle: are they right?"),
     ({"model": {"stiffness": "500 N/mm"}}, "'500 N/mm' is not in the unit of the contact law; give it in N/m^1.5"),
     ({"model": {"angle": "120 deg"}}, "model.angle = '120 deg' should be at most 1.5708 (rad)"),
     (
@@ -53,8 +52,11 @@ WRONG = [
         "sweeps.mine.axes.angle.num = 0 should be at least 1",
     ),
     ({"sweeps": {"mine": {"axes": {"mass": [1.0e-3, -1.0]}}}}, "sweeps.mine.axes.mass[1] = -1.0 should be at least"),
-    ({"sweeps": {"mine": {"axes": {"z0": {"start": 0.0}}}}}, "sweeps.mine.axes.z0.stop is missing"),
-    ({"sweeps": {"mine": {"duration": 1.0}}}, "sweeps.mine.axes is missing"),
+    (
+        {"sweeps": {"mine": {"axes": {"z0": {"start": 0.0}}}}},
+        "sweeps.mine.axes.z0.stop is missing; give it in m (initial",
+    ),
+    ({"sweeps": {"mine": {"duration": 1.0}}}, "sweeps.mine.axes is missing; give it (axes of the table: lists of"),
     ({"sweeps": {"mine": {**MINE, "model": {"z0": 1.0e-4}}}}, "sweeps.mine.model.z0 is an axis of this entry too"),
     (
         {"sweeps": {"amplitudes": {"axes": {"damping": [0.1, 0.3]}}}},
@@ -69,6 +71,10 @@ WRONG = [
     ),
     ({"estimates": {"phase": {"last": 1}}}, "estimates.phase.last = 1 should be less than 1 (of the duration)"),
     (
+        {"estimates": {"phase": {"last": 25}}},
+        "estimates.phase.last = 25 should be less than 1 (of the duration); this is a share: write 25 % or 0.25",
+    ),
+    (
         {"figures": {"fig03": {"tables": {"euler": "sweeps/none"}}}},
         "figures.fig03.tables.euler = 'sweeps/none'",
     ),
@@ -78,7 +84,7 @@ WRONG = [
         "fig99 has no files scripts/conveyor_pipeline/FLOOR/figures/fig99.py",
     ),
     ({"prefix": "a\n"}, "prefix = 'a\\n' should be a folder name of at most 64"),
-    # accepted by earlier versions, with silently wrong results
+    # silently wrong results, if accepted
     ({"estimates": {"height": {"model": {"z0": "conveyor"}}}}, "estimates.height.perturb = 'z0' has no effect"),
     ({"estimates": {"phase": {"epsilon": 1.0e-300}}}, "estimates.phase.epsilon = 1e-300 should be at least 1e-15"),
     (
@@ -97,7 +103,7 @@ WRONG = [
         {"figures": {"fig09": {"marks": {"critical_hight": 1.0}}}},
         "figures.fig09.marks.critical_hight is an unknown key; did you mean critical_height?",
     ),
-    # accepted by earlier versions, and failing in a job
+    # failures in a job, if accepted
     ({"orbits": {"limits": [20, 40]}}, "orbits.limits = [20.0, 40.0] m/s² must hold the amplitude of orbits.seeds[1]"),
     (
         {"dimensions": {"portrait": {"method": "euler"}}},
@@ -148,8 +154,16 @@ WRONG = [
         {"orbits": {"model": {"static_friction": 0.1}}},
         "orbits.model has static_friction = 0.1 below friction = 0.15; give a larger static_friction, or leave it out",
     ),
+    (
+        {"prefix": "mine", "model": {"exponent": 1.0}},
+        "model.exponent = 1.0 changes the unit of model.stiffness; state model.stiffness in N/m too",
+    ),
+    (
+        {"prefix": "mine", "model": {"exponent": 2}},
+        "model.exponent = 2.0 changes the unit of model.stiffness; state model.stiffness in N/m^2 too",
+    ),
     ({"model": {"inclination": 3.0}}, "model.inclination = 3.0 should be at most 1.4 (rad); angles are in radians"),
-    # crashed the check of earlier versions, or ran without end
+    # values that could crash the check, or let it run without end
     ({"figures": {"fig03": {"tables": {"euler": "model/acceleration"}}}}, "euler = 'model/acceleration' is unknown"),
     ({1: {}}, "config has the key 1, which is not text"),
     ({"model": {0: None}}, "model has the key 0, which is not text; write decimal points, not commas"),
@@ -199,6 +213,8 @@ def test_configs_are_valid():
         {"model": {"static_friction": 0.15}},
         {"prefix": "mine", "model": {"static_friction": 0.2}},
         {"prefix": "mine", "model": {"friction": 0.0, "static_friction": 0.1}},
+        {"prefix": "mine", "model": {"exponent": 1.0, "stiffness": "35 N/mm"}},
+        {"estimates": {"phase": {"last": "25 %"}}},
         {"figures": {"fig03": {"section": r"$\dot{x}_p$ über $\hat{a}$ {braces} {}"}}},
         {"certificates": {"doublings": 4.0}, "solver": {"settling": 2.0e4}},
         {"sweeps": {"amplitudes": {"axes": {"acceleration": {"start": 20, "num": 20.0}}}}},
@@ -209,6 +225,11 @@ def test_configs_are_valid():
 )
 def test_a_valid_overlay_has_no_errors(overlay):
     assert problems(merged(CONFIG, overlay)) == []
+
+
+def test_a_stiffness_may_keep_its_number_in_another_unit():
+    overlay = {"prefix": "mine", "model": {"exponent": 1.0, "stiffness": CONFIG["model"]["stiffness"]}}
+    assert problems(merged(CONFIG, overlay), stated=overlay) == []
 
 
 def test_methods_make_a_table_each():

@@ -129,7 +129,7 @@ def test_snakemake_names_file_line_and_key_of_a_wrong_value(project, tmp_path):
     file.write_text("prefix: mine\nsweeps:\n  one:\n    axes:\n      z0: [0.0, 1e-4, 99]\n  two: {duration: 1}\n")
     run = project.called("--dry-run", "figures/fig22.pdf", "--configfile", str(file))
     assert_refused(run, "mine.yaml:5: sweeps.one.axes.z0[2] = 99 should be at most 10 (m)")
-    assert "mine.yaml:6: sweeps.two.axes is missing" in run.stdout
+    assert "mine.yaml:6: sweeps.two.axes is missing; give it (axes of the table" in run.stdout
 
 
 def test_a_wrong_value_of_the_command_line_is_not_blamed_on_a_file(tmp_path):

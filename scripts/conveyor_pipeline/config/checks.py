@@ -132,6 +132,16 @@ def faults_of_friction(config: dict, changed: dict[str, dict]) -> Iterator[str]:
                 )
 
 
+def exponent(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """Another exponent with the default stiffness, whose number has another unit then."""
+    own, default = config["model"], defaults["model"]
+    is_given = "stiffness" in (stated.get("model") or {}) or own["stiffness"] != default["stiffness"]
+    if config["prefix"] and own["exponent"] != default["exponent"] and not is_given:
+        unit = f"N/m^{own['exponent']:g}".removesuffix("^1")
+        remedy = f"state model.stiffness in {unit} too"
+        yield f"model.exponent = {own['exponent']!r} changes the unit of model.stiffness; {remedy}"
+
+
 def faults_of_stiffness(config: dict, typed: dict) -> Iterator[str]:
     """Units of stiffness, N/m^p, whose exponent p is not the exponent of the model; `typed` is the validated config."""
     for path, text in texts_of(config):
@@ -237,7 +247,19 @@ def unused_keys(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
                     yield f"{section}.{figure}.{key}.{name} is an unknown key; {suggest_name(name, known)}"
 
 
-CHECKS = (prefix, measured_files, methods, axes, friction, sweeps, steps, unknown_tables, figures, unused_keys)
+CHECKS = (
+    prefix,
+    measured_files,
+    methods,
+    axes,
+    friction,
+    exponent,
+    sweeps,
+    steps,
+    unknown_tables,
+    figures,
+    unused_keys,
+)
 
 
 @cache

@@ -91,7 +91,8 @@ def explain(error: dict, config: Any) -> str:
         remedy = suggest_name(value, names["enum"]) if "enum" in names else f"give {names['patternErrorMessage']}"
         return f"{above} has the unknown name {format_value(value)}; {remedy}"
     if kind == "missing":
-        return f"{key} is missing"
+        unit = f" in {unit_of(schema)}" if unit_of(schema) in KEYS else ""
+        return f"{key} is missing; give it{unit} ({schema['description'].partition(';')[0]})"
     if kind == "extra_forbidden":
         known = [name for option in options_of(schema_at(path[:-1])) for name in option.get("properties", {})]
         return f"{key} is an unknown key; {suggest_name(path[-1], known)}"
@@ -119,6 +120,9 @@ def explain(error: dict, config: Any) -> str:
     has_unit = isinstance(value, str) and not is_number(value)
     if kind == "less_than_equal" and unit == "rad" and not has_unit and (degrees := float(value)) <= 360:
         remedy = f"; angles are in radians, {degrees:g}° are {math.radians(degrees):.4f} rad: write {degrees:g} deg"
+    is_share = unit.startswith("of ") and kind in ("less_than", "less_than_equal") and not has_unit
+    if is_share and 1 < (percent := float(value)) < 100:
+        remedy = f"; this is a share: write {percent:g} % or {percent / 100:g}"
     # Entries may have frequencies of their own.
     if has_unit and kind == "quantity" and unit == "m/s²" and path[0] not in ENTRIES:
         remedy = acceleration_of(value, config)

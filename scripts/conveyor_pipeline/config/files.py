@@ -81,15 +81,17 @@ def paths_of(config: Any, path: tuple = ()) -> Iterator[tuple]:
 def name_lines(errors: Sequence[str], files: Sequence[str | Path], config: dict) -> list[str]:
     """Errors that begin with a key, each with the place of this key: FILE:LINE in the last file that has it.
 
+    A key that "is missing" has the place of the section above it.
+
     config : values that replace those of the files, of the option --config; without files, of another workflow
     """
     in_files = {format_key(path): line for file in files for path, line in find_lines(file).items()}
     lines = in_files | ({format_key(path): "--config" for path in paths_of(config)} if files else {})
     named = []
     for error in errors:
-        key = error.partition(" ")[0]
+        key, _, fault = error.partition(" ")
         above = key.rpartition(".")[0]
-        line = in_files.get(above, lines.get(above)) if error == f"{key} is missing" else lines.get(key)
+        line = in_files.get(above, lines.get(above)) if fault.startswith("is missing") else lines.get(key)
         named.append(f"{line}: {error}" if line else error)
     return named
 

@@ -1,6 +1,5 @@
 """Contradictions in the sections of the floor machine, as in config/checks.py."""
 
-import math
 from collections.abc import Iterator
 
 from conveyor import RANGES
@@ -58,13 +57,15 @@ def supply(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     own, frequency = config["supply"], config["model"]["frequency"]
     is_given = own != defaults["supply"] or stated.get("supply", own) != own
     if "resonance" not in own and is_given:
-        yield "supply.resonance is missing; without it, the range of the amplitude is not known"
+        remedy = "give the resonance (Hz) of the drive with its load, or remove the section supply"
+        yield f"supply.resonance is missing; {remedy}"
     if "resonance" not in own:
         return
     resonance = f"supply.resonance = {own['resonance']!r} Hz"
     remedy = "give the resonance in which the drive with its load moves along the direction of vibration"
     if own["resonance"] > FARTHEST * frequency:
-        yield f"{resonance} is more than {FARTHEST:g} times model.frequency = {frequency!r} Hz; {remedy}"
+        limit = f"at most {FARTHEST * frequency:g} Hz, or check model.frequency"
+        yield f"{resonance} is more than {FARTHEST:g} times model.frequency = {frequency!r} Hz; {remedy}, {limit}"
     # Unbalanced masses and voice coils may run far above the resonance of soft springs, an electromagnet cannot.
     if own["force"] == "voltage²" and FARTHEST * own["resonance"] < frequency:
         yield f"{resonance} is less than 1/{FARTHEST:g} of model.frequency = {frequency!r} Hz; {remedy}"
@@ -170,9 +171,12 @@ def track(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     if has_gaps or length == defaults["transit"]["length"]:
         return
     speed = measurements.plate_velocity(max(ends(axis)), config["model"])
+    if length <= AMPLITUDE_ERROR * speed * longest:
+        return
+    from conveyor_pipeline.common.steepness import is_steep  # NumPy, see excitation
+
     # Parts may slide down a steep track faster than the plate ever moves.
-    slides = math.tan(-config["model"]["inclination"]) >= config["model"]["friction"]
-    if not slides and length > AMPLITUDE_ERROR * speed * longest:
+    if not (config["model"]["inclination"] < 0.0 and is_steep(config["model"])):
         reason = f"because the plate moves at most at {speed:.3g} m/s"
         remedy = f"{millimetres(stated, 'transit.length', length) or 'give a shorter track'}, or give more time"
         yield f"transit.length = {length!r} m is too long for transit.longest = {longest!r} s, {reason}; {remedy}"

@@ -66,7 +66,15 @@ def test_a_value_that_agrees_may_be_stated_and_null_leaves_a_half_out():
         (
             {"part": "steel", "radius": 1e-3},
             {},
-            "contact.lining is missing; part, lining and radius give the stiffness",
+            "contact.lining is missing; part, lining and radius give the stiffness together; name its material, or "
+            "remove part and radius",
+        ),
+        ({"radius": 1e-3}, {}, "give the stiffness together; name its material, or remove radius"),
+        ({"part": "steel", "lining": "PP"}, {}, "together; give it in m, or remove part and lining"),
+        (
+            {"part": "steel", "lining": "rubber_60A", "radius": 1e-15},
+            {},
+            "contact.radius = 1e-15 m gives a stiffness of 0.203 N/m^1.5, outside [1, 1e+15]; give another radius",
         ),
         ({**WORDS}, {"exponent": 1.0}, "contact.radius needs a Hertz contact, but model.exponent is 1.0"),
         ({"part": "stel"}, {}, "contact.part = 'stel' should be one of steel, stainless_steel"),

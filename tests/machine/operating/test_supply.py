@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from project import merged, read_config
 
-from conveyor_pipeline.config import canonical, problems
+from conveyor_pipeline.config import ConfigError, canonical, load_config, problems
 from conveyor_pipeline.config.tables import settings_of
 from conveyor_pipeline.machine.operating import advice
 from conveyor_pipeline.machine.operating.supply import FORCES, amplitude_range
@@ -58,18 +58,30 @@ def test_advice_depends_on_the_supply_only_if_it_is_stated():
 @pytest.mark.parametrize(
     ("supply", "message"),
     [
-        ({"voltage": 0.1}, "supply.resonance is missing"),
+        (
+            {"voltage": 0.1},
+            "supply.resonance is missing; give the resonance (Hz) of the drive with its load, or remove",
+        ),
         ({"resonance": 52.0, "frequency": 60.0}, "supply.frequency = 60.0 Hz is not below model.frequency = 50.0 Hz"),
         ({"resonance": 52.0, "force": "current"}, "supply.force = 'current' should be 'voltage²', 'voltage' or"),
         ({"resonance": "52 mm"}, "supply.resonance = '52 mm' has a unit of another dimension; give Hz"),
         ({"resonance": 160.0}, "supply.resonance = 160.0 Hz is more than 3 times model.frequency = 50.0 Hz"),
         ({"resonance": 16.0}, "supply.resonance = 16.0 Hz is less than 1/3 of model.frequency = 50.0 Hz"),
+        ({"resonance": 160.0}, "along the direction of vibration, at most 150 Hz, or check model.frequency"),
         ({"resonance": 160.0, "force": "frequency²"}, "supply.resonance = 160.0 Hz is more than 3 times"),
-        ({"resonance": 52.0, "voltage": 5}, "supply.voltage = 5 should be less than 1"),
+        ({"resonance": 52.0, "voltage": 5}, "less than 1 (of the voltage); this is a share: write 5 % or 0.05"),
     ],
 )
 def test_impossible_supplies_are_refused(supply, message):
     assert any(message in line for line in problems(merged(CONFIG, {"supply": supply})))
+
+
+def test_a_missing_resonance_has_the_line_of_the_section(tmp_path):
+    file = tmp_path / "mine.yaml"
+    file.write_text("prefix: mine\nsupply:\n  voltage: 10 %\n")
+    with pytest.raises(ConfigError) as error:
+        load_config([file], {})
+    assert f"\n{file}:2: supply.resonance is missing; give" in str(error.value)
 
 
 @pytest.mark.parametrize("force", ["voltage", "frequency²"])

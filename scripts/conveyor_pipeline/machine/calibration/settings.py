@@ -31,7 +31,7 @@ class Calibration(TypedDict):
         },
     )
     ranges: mapping("range of each parameter, in dimensionless groups", RANGES_OF_CALIBRATION)
-    noise: number("relative standard deviation of a velocity without its own", ge=0, lt=1)
+    noise: number("relative standard deviation of a velocity without its own", "of the velocity", ge=0, lt=1)
     effort: number("factor of all numbers of samples; below 1: a trial", ge=0.05, le=100)
     seed: Seed
 

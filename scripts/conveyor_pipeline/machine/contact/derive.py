@@ -46,7 +46,11 @@ def contact_of(config: dict) -> dict[str, float]:
     keys = (*NAMED, "radius")
     given = [name for name in keys if own.get(name) is not None]
     if missing := [name for name in keys if given and name not in given]:
-        raise ValueError(f"contact.{missing[0]} is missing; part, lining and radius give the stiffness together")
+        remedy = "give it in m" if missing[0] == "radius" else "name its material"
+        raise ValueError(
+            f"contact.{missing[0]} is missing; part, lining and radius give the stiffness together; {remedy}, or "
+            f"remove {' and '.join(given)}"
+        )
     if given:
         if model["exponent"] != HERTZ:
             remedy = "give model.stiffness in place of part, lining and radius"

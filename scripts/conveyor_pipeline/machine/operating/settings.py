@@ -89,7 +89,7 @@ class Body(TypedDict):
 
 
 class Advice(TypedDict):
-    margin: number("relative error of the amplitude within which the advice must hold", gt=0, lt=1)
+    margin: number("relative error of the amplitude within which the advice must hold", "of the amplitude", gt=0, lt=1)
     changes: mapping(
         "changes of single parameters, up and down",
         {"dimensionless": dimensionless(frequency=number("change of the frequency, over the model's", gt=0, lt=1))}
@@ -100,7 +100,7 @@ class Advice(TypedDict):
 
 
 class Supply(TypedDict):
-    voltage: number("relative deviation of the voltage, up and down", ge=0, lt=1)
+    voltage: number("relative deviation of the voltage, up and down", "of the voltage", ge=0, lt=1)
     frequency: number("deviation of the excitation frequency, up and down", "Hz", ge=0, le=1e5)
     resonance: NotRequired[number("resonance of the drive; without it, advice.margin counts", "Hz", ge=1e-2, le=1e5)]
     damping_ratio: number("damping ratio of the drive", gt=0, lt=1)
@@ -147,7 +147,7 @@ class Drive(TypedDict):
     displacement: number("largest displacement of the plate, â/ω² without harmonics", "m", gt=0, le=0.1)
     velocity: number("least useful velocity of the slowest 5 % of the parts", "m/s", gt=0, le=100)
     impact_speed: number("largest impact speed that a design may have", "m/s", gt=0, le=100)
-    back: number("largest share of the parts that may move back", ge=0, lt=1)
+    back: number("largest share of the parts that may move back", "of the parts", ge=0, lt=1)
     search: described(DriveSearch, "parts of each design of the search")
     population: whole("population of NSGA-II", 4, 10**4)
     generations: whole("generations of NSGA-II", 4, 10**5)
