@@ -18,6 +18,13 @@ from conveyor_pipeline.machine.operating.body_limits import (
 from conveyor_pipeline.machine.operating.populations import ENDS
 
 
+def verdict(difference: float, stderr: float, limit: float) -> str:
+    """What a difference says about a statement that it is at most `limit`; empty if it agrees."""
+    if difference <= limit:
+        return ""
+    return ", which does not decide it" if difference - 2.0 * stderr <= limit else ", so that it does not hold"
+
+
 def numbers(*, bodies: pd.DataFrame, shapes: pd.DataFrame) -> dict:
     settings = bodies.attrs
     model, effort, size = settings["model"], settings["effort"], shapes.difference.abs()
@@ -30,7 +37,7 @@ def numbers(*, bodies: pd.DataFrame, shapes: pd.DataFrame) -> dict:
             statements[motion] |= {
                 "difference": 100.0 * abs(largest.difference),
                 "stderr": 100.0 * largest.difference_stderr,
-                "holds": bool(abs(largest.difference) <= limit),
+                "verdict": verdict(abs(largest.difference), largest.difference_stderr, limit),
             }
     errors = [100.0 * shapes.difference_stderr[shapes.motion == motion].median() for motion in MOTIONS]
     right = [100.0 * (size[shapes.motion == motion] <= RIGHT).mean() for motion in MOTIONS]
