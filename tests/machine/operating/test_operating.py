@@ -204,7 +204,7 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
         labels = {"state": np.full(n, states), "period": np.ones(n, np.int64), "longest_flight": np.zeros(n)}
         return Columns(labels | {"cycles": np.arange(n)})
 
-    monkeypatch.setattr(shares, "label_starts", motions_found)
+    monkeypatch.setattr(shares, "labels_of", motions_found)
     velocities = np.array([1.0, 3.0]), np.array([[0.1, 2.0], [0.2, 1.0]]), np.array(statuses, dtype=object)
     monkeypatch.setattr(shares, "velocities", lambda *_, **__: velocities)
     row = shares.shares_at(np.array([40.0]), BOX, followed=2).iloc[0]
@@ -212,6 +212,32 @@ def test_velocities_of_a_motion_are_averaged(monkeypatch, states, statuses, want
     assert row.starts == BOX["starts"]
     peaks = (0.2, 2.0) if row.status == "ok" else (np.nan, np.nan)
     assert (row.impact_speed, row.peak_force) == pytest.approx(peaks, nan_ok=True)
+
+
+def test_where_motions_do_not_converge_a_few_initial_conditions_are_followed_to_the_limit(monkeypatch):
+    """From 49 m/s² on, every second motion has a long period. One of the first initial conditions at 49 m/s² ends
+    undecided, and one at 51 m/s² converges late.
+    """
+    limit, late = 20_000, 5000
+
+    def followed(parameters, *, cycles, **_):
+        amplitude, number = parameters["acceleration"], parameters["z0"]
+        slow = (amplitude == 49.0) & (number == shares.TRIED - 1)
+        needed = np.where(slow | ((amplitude >= 49.0) & (number % 2 == 0)), np.inf, 10.0)
+        needed[(amplitude == 51.0) & (number == 1)] = late
+        return Columns({"state": np.where(slow, "undecided", "first"), "cycles": np.minimum(needed, cycles)})
+
+    monkeypatch.setattr(shares, "classify", followed)
+    monkeypatch.setattr(shares, "shared_attractors", lambda *_, **__: None)
+    starts = 100
+    rows = shares.population(np.array([40.0, 49.0, 50.0, 51.0]), {**BOX, "starts": starts}, shares.IDENTICAL)
+    rows["z0"] = np.tile(np.arange(starts), 4)
+    labels = shares.labels_of(rows, {**BOX, "settling": limit, "starts": starts})
+    longest = labels.cycles.reshape(4, starts)
+    tried, others = longest[:, : shares.TRIED].max(axis=1), longest[:, shares.TRIED :].max(axis=1)
+    assert tried.tolist() == [10, limit, limit, limit]
+    assert others.tolist() == [10, shares.BRIEF, shares.BRIEF, limit]
+    assert np.flatnonzero(labels.state == "undecided").tolist() == [starts + shares.TRIED - 1]
 
 
 def rows_at(acceleration: float) -> dict[str, list]:

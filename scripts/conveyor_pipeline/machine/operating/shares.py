@@ -9,12 +9,12 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor import Columns, restart, sample_runs, sweep, throw_number
+from conveyor import Columns, classify, restart, sample_runs, sweep, throw_number
 from conveyor.elementary import cos, sin
 from conveyor.packing import plate_peaks
 from conveyor.parameters import LAST
 from conveyor_pipeline.common import fields, grid
-from conveyor_pipeline.common.labelling import label_starts
+from conveyor_pipeline.common.labelling import join, search_options, shared_attractors
 from conveyor_pipeline.common.steepness import steepness
 from conveyor_pipeline.machine.operating import regimes
 from conveyor_pipeline.machine.operating.parts import population
@@ -52,6 +52,37 @@ MOST_CYCLES = 4000  # upper limit of cycles of a brief run
 FOLLOWED = 8  # initial conditions per attractor from which its mean velocity is computed
 CYCLES = 250  # excitation cycles, at least, over which a mean velocity is computed
 FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
+TRIED = 32  # initial conditions of each amplitude that are followed until their motions are known, or to the limit
+BRIEF = 1000  # excitation cycles of the others where more would not help
+
+
+def labels_of(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Columns:
+    """The labels of the initial conditions of some amplitudes, shape (m starts,).
+
+    Where one of the first TRIED of an amplitude ends undecided, motions settle too slowly to be known in any case, so
+    that the others are followed for BRIEF cycles only, and end undecided if they have not converged. Where some of the
+    first TRIED end at the limit as regular motions of a long period or chaos, and none converges between BRIEF cycles
+    and the limit, more cycles than BRIEF would not help the others; Lyapunov exponents label them then.
+    """
+    options = {"threads": threads, "progress": progress}
+    known, limit = shared_attractors(parameters, settings["starts"], settings, **options), settings["settling"]
+    options = {**search_options(settings), "attractors": known, **options}
+    brief = {**options, "cycles": min(BRIEF, limit)}
+    amplitude, start = np.divmod(np.arange(len(parameters)), settings["starts"])
+    first = start < TRIED
+    tried = classify(parameters[first], **options)
+
+    def others_where(which: np.ndarray) -> np.ndarray:
+        """The others of the amplitudes of some of those that were tried."""
+        return ~first & np.isin(amplitude, amplitude[first][which])
+
+    undecided = others_where(tried.state == "undecided")
+    endless = others_where(tried.cycles >= limit) & ~undecided
+    endless &= ~others_where((tried.cycles > BRIEF) & (tried.cycles < limit))
+    rows = [first, ~(first | undecided | endless), endless, undecided]
+    how = [options, brief, brief | {"exponents": False}]
+    parts = [classify(parameters[some], **given) for some, given in zip(rows[1:], how, strict=True)]
+    return join([tried, *parts], [np.flatnonzero(some) for some in rows])
 
 
 def groups(labels: Columns, conveyor: np.ndarray) -> np.ndarray:
@@ -173,7 +204,7 @@ def shares_at(
     followed : initial conditions per attractor from which its mean velocity is computed
     """
     starts, parameters = settings["starts"], population(amplitudes, settings, IDENTICAL)
-    labels = label_starts(parameters, settings, starts=settings["starts"], threads=threads, progress=progress)
+    labels = labels_of(parameters, settings, threads=threads, progress=progress)
     number = groups(labels, np.arange(len(parameters)) // starts)
     _, first, count = np.unique(number, return_index=True, return_counts=True)
     # The trajectories of each motion that have settled first are followed further.
