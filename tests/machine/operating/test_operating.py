@@ -236,7 +236,7 @@ def test_where_motions_do_not_converge_a_few_initial_conditions_are_followed_to_
     longest = labels.cycles.reshape(4, starts)
     tried, others = longest[:, : shares.TRIED].max(axis=1), longest[:, shares.TRIED :].max(axis=1)
     assert tried.tolist() == [10, limit, limit, limit]
-    assert others.tolist() == [10, shares.BRIEF, shares.BRIEF, limit]
+    assert others.tolist() == [10, shares.BRIEF * limit, shares.BRIEF * limit, limit]
     assert np.flatnonzero(labels.state == "undecided").tolist() == [starts + shares.TRIED - 1]
 
 

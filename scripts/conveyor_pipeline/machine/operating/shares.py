@@ -53,21 +53,22 @@ FOLLOWED = 8  # initial conditions per attractor from which its mean velocity is
 CYCLES = 250  # excitation cycles, at least, over which a mean velocity is computed
 FORGOTTEN = 200  # excitation cycles, at least, for the transient of the feeding motion
 TRIED = 32  # initial conditions of each amplitude that are followed until their motions are known, or to the limit
-BRIEF = 1000  # excitation cycles of the others where more would not help
+BRIEF = 0.05  # of the limit: cycles of the others where more would not help
 
 
 def labels_of(parameters: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Columns:
     """The labels of the initial conditions of some amplitudes, shape (m starts,).
 
     Where one of the first TRIED of an amplitude ends undecided, motions settle too slowly to be known in any case, so
-    that the others are followed for BRIEF cycles only, and end undecided if they have not converged. Where some of the
-    first TRIED end at the limit as regular motions of a long period or chaos, and none converges between BRIEF cycles
-    and the limit, more cycles than BRIEF would not help the others; Lyapunov exponents label them then.
+    that the others are followed for the share BRIEF of the limit only, and end undecided if they have not converged.
+    Where some of the first TRIED end at the limit as regular motions of a long period or chaos, and none converges
+    between this share and the limit, more cycles would not help the others; Lyapunov exponents label them then.
     """
     options = {"threads": threads, "progress": progress}
     known, limit = shared_attractors(parameters, settings["starts"], settings, **options), settings["settling"]
     options = {**search_options(settings), "attractors": known, **options}
-    brief = {**options, "cycles": min(BRIEF, limit)}
+    cycles = math.ceil(BRIEF * limit)
+    brief = {**options, "cycles": cycles}
     amplitude, start = np.divmod(np.arange(len(parameters)), settings["starts"])
     first = start < TRIED
     tried = classify(parameters[first], **options)
@@ -78,7 +79,7 @@ def labels_of(parameters: np.ndarray, settings: dict, *, threads: int = 1, progr
 
     undecided = others_where(tried.state == "undecided")
     endless = others_where(tried.cycles >= limit) & ~undecided
-    endless &= ~others_where((tried.cycles > BRIEF) & (tried.cycles < limit))
+    endless &= ~others_where((tried.cycles > cycles) & (tried.cycles < limit))
     rows = [first, ~(first | undecided | endless), endless, undecided]
     how = [options, brief, brief | {"exponents": False}]
     parts = [classify(parameters[some], **given) for some, given in zip(rows[1:], how, strict=True)]
