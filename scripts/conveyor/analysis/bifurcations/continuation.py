@@ -1,9 +1,10 @@
 """Branches of periodic orbits in one parameter, and the bifurcations on them.
 
 Pseudo-arclength (Keller 1977) follows a branch past its folds. A branch folds where a multiplier passes +1. Its period
-doubles where a multiplier passes -1. An impact grazes where a contact begins or ceases to exist; only this is reported
-where the multipliers jump past ±1 at a grazing, although the branch may turn there. The product of the multipliers is
-positive and at most 1, so that no other bifurcation of a single orbit is generic.
+doubles where a multiplier passes -1. An impact grazes where a contact begins or ceases to exist. With `tension: clip`,
+the multipliers jump at a grazing. If they jump past ±1, only the grazing is reported, although the branch may turn
+there. The product of the multipliers is positive and at most 1, so that no other bifurcation of a single orbit is
+generic.
 """
 
 from collections.abc import Callable, Sequence
@@ -175,7 +176,7 @@ def bifurcations_between(returns: ReturnMap, before: Orbit, after: Orbit) -> lis
         if test(before) * test(after) < 0.0 and (part := _zero(at, test)) is not None:
             orbit = at(part)
             if abs(test(orbit)) > JUMP * abs(test(after) - test(before)):
-                continue  # the multipliers jump at a grazing
+                continue  # with `tension: clip`, the multipliers jump at a grazing
             multiplier = min(orbit.multipliers, key=lambda value, sign=sign: abs(value - sign))
             bifurcations.append((part, Bifurcation(kind, orbit, multiplier.real, returns.parameter)))
     if before.impacts != after.impacts:

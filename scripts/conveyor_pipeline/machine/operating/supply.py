@@ -5,8 +5,9 @@ drives. Its acceleration has the amplitude (Den Hartog 1956, Mechanical Vibratio
 
     â ~ F f²/√((f₀² - f²)² + (2 ζ f₀ f)²).
 
-The force F of an electromagnet grows with the square of the voltage, that of a voice coil or a piezo actuator with the
-voltage, and that of unbalanced masses with the square of the frequency. The parts do not act back on the drive.
+At a fixed frequency, the force F of an electromagnet grows with the square of the voltage; the model neglects that this
+force falls as the frequency rises. The force of a voice coil or a piezo actuator grows with the voltage, and that of
+unbalanced masses with the square of the frequency. The parts do not act back on the drive.
 """
 
 import math
