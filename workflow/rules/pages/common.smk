@@ -5,21 +5,23 @@ from conveyor_pipeline.config.stages import FLOORS
 MISSING_FLOORS = {"paper", "machine", "study"} - {*FLOORS}
 
 
-def check_floors(target):
-    """An error for a target about all floors, if this copy lacks one."""
+def check_all_floors():
+    """An error for a page about the paper's conveyor and all floors, if the config or this copy has others."""
+    check_paper("the text of README, article and site")
     if MISSING_FLOORS:
-        raise WorkflowError(f"{target} need all floors, but this copy lacks {' and '.join(sorted(MISSING_FLOORS))}")
+        raise WorkflowError(
+            f"README, article, site and docs/checked.md need all floors, but this copy lacks {' and '.join(sorted(MISSING_FLOORS))}"
+        )
 
 
 def inputs_of_page(wildcards):
-    """The inputs that fill the template of a page; an error for a missing floor."""
+    """The inputs that fill the template of a page."""
     if wildcards.page == "checked":
-        check_floors("the tables of docs/checked.md")
+        check_all_floors()
     return PAGES[wildcards.page]
 
 
 def tables_of_facts(wildcards):
-    """The tables behind the text of README, article and site; an error for another conveyor or a missing floor."""
-    check_paper("the text of README, article and site")
-    check_floors("README, article and site")
+    """The tables behind the text of README, article and site."""
+    check_all_floors()
     return FACTS
