@@ -7,7 +7,7 @@ from project import ROOT
 import conveyor
 
 LIBRARY = ROOT / "scripts/conveyor"
-REFERENCE_PAGE = ROOT / "workflow/templates/site/api_simulation.md"
+REFERENCE_PAGE = ROOT / "workflow/rules/pages/site/api_simulation.md"
 README = (LIBRARY / "README.md").read_text()
 
 

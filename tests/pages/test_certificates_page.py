@@ -8,7 +8,7 @@ from project import ROOT
 
 from conveyor_pipeline.pages import certificates_page
 
-TEMPLATE = (ROOT / "workflow/templates/certificates.md").read_text(encoding="utf-8")
+TEMPLATE = (ROOT / "workflow/rules/pages/certificates.md").read_text(encoding="utf-8")
 ORBIT = {
     "branch": 0,
     "acceleration": 40.0,

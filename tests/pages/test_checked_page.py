@@ -6,7 +6,7 @@ from project import ROOT, si_config
 
 from conveyor_pipeline.pages import checked_page
 
-TEMPLATE = (ROOT / "workflow/templates/checked.md").read_text(encoding="utf-8")
+TEMPLATE = (ROOT / "workflow/rules/pages/checked.md").read_text(encoding="utf-8")
 ROW = {
     "kind": "impact",
     "quantity": "duration",

@@ -15,7 +15,7 @@ from snakemake.cli import parse_args
 from conveyor import __version__
 
 CI = (ROOT / ".ci/run").read_text()
-PAGES = [*ROOT.glob("docs/guides/*.md"), *ROOT.glob("workflow/templates/**/*.md")]
+PAGES = [*ROOT.glob("docs/guides/*.md"), *ROOT.glob("workflow/rules/**/*.md")]
 GUIDES = ("CONTRIBUTING.md", "README.md", *(str(file.relative_to(ROOT)) for file in PAGES))
 
 

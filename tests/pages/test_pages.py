@@ -14,7 +14,7 @@ from conveyor_pipeline.pages import article, facts, pages, site
 from conveyor_pipeline.pages.config_keys import parse_file
 from conveyor_pipeline.paper.claims.verdicts import NOT_REPRODUCED, PAPER_METHOD_ONLY, REPRODUCED, describe_claims
 
-TEMPLATES = ROOT / "workflow/templates"
+TEMPLATES = ROOT / "workflow/rules/pages"
 FRAME = (TEMPLATES / "article.typ").read_text(encoding="utf-8")
 # Pages with results; numbers in examples for users are not results.
 PROSE = [

@@ -28,6 +28,6 @@ def test_paths_are_the_paths_of_the_workflow():
 
 
 def test_columns_have_units_and_meanings():
-    page = tables_page.make((ROOT / "workflow/templates/tables.md").read_text(encoding="utf-8"))
+    page = tables_page.make((ROOT / "workflow/rules/pages/tables.md").read_text(encoding="utf-8"))
     assert "| `mean_velocity` | m/s | mean feeding velocity over the last quarter" in page
     assert "| `z0` | m |" in page

@@ -62,7 +62,7 @@ def broken(page: str, links: dict[str, Links]) -> list[str]:
 
 
 def test_all_pages_are_there():
-    wanted = {f"{path.stem}.html" for path in (ROOT / "workflow/templates/site").glob("*.md")}
+    wanted = {f"{path.stem}.html" for path in (ROOT / "workflow/rules/pages/site").glob("*.md")}
     guides = {f"guides/{path.stem}.html" for path in (ROOT / "docs/guides").glob("*.md")}
     assert wanted | guides | {"article.html", "companion.html"} <= set(PAGES)
 
@@ -94,7 +94,7 @@ def test_the_article_shows_all_figures_of_the_paper():
 
 def test_the_article_is_made_from_its_text(monkeypatch):
     monkeypatch.chdir(ROOT)
-    frame = (ROOT / "workflow/templates/article.typ").read_text(encoding="utf-8")
+    frame = (ROOT / "workflow/rules/pages/article.typ").read_text(encoding="utf-8")
     text = (RESULTS / "article/article.md").read_text(encoding="utf-8")
     assert (RESULTS / "article.pdf").read_bytes() == article.typeset(text, frame)
 

@@ -206,7 +206,7 @@ def test_a_trial_of_twenty_velocities_of_the_model_itself_gives_no_verdict(capsy
     assert found["samples"].empty and found["alternatives"].empty
     found["parameters"].attrs = settings
     predicted = prediction.make(found.pop("samples"), found["fit"], settings)
-    template = (ROOT / "workflow/templates/calibration.md").read_text(encoding="utf-8")
+    template = (ROOT / "workflow/rules/machine/calibration.md").read_text(encoding="utf-8")
     tables = found | {name: pd.DataFrame(columns) for name, columns in predicted.items()}
     text = page.make(template, **tables, measurements=text, prefix="mine")
     assert "**This is a trial" in text and "**The search has not converged.**" in text

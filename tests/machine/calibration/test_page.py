@@ -75,7 +75,7 @@ def tables(
 
 
 def whole_page(**options):
-    template = (ROOT / "workflow/templates/calibration.md").read_text(encoding="utf-8")
+    template = (ROOT / "workflow/rules/machine/calibration.md").read_text(encoding="utf-8")
     text = "# Synthetic, not measured\nacceleration,velocity\n"
     return page.make(template, **tables(**options), measurements=text, prefix="mine")
 
@@ -142,7 +142,7 @@ def test_a_search_that_has_not_converged_says_only_that():
 def test_an_alternative_whose_search_has_not_converged_is_no_verdict():
     found = tables()
     found["alternatives"].loc[1, ["value", "log_bayes_factor", "effective"]] = [math.nan, math.nan, 3.0]
-    template = (ROOT / "workflow/templates/calibration.md").read_text(encoding="utf-8")
+    template = (ROOT / "workflow/rules/machine/calibration.md").read_text(encoding="utf-8")
     text = page.make(template, **found, measurements="acceleration,velocity\n", prefix="mine")
     assert "| phase_shift | 0 rad | – | not known: its search has not converged |" in text
     first = text.partition("## Parameters")[0]

@@ -171,7 +171,7 @@ def test_the_page_names_both_values_and_what_is_uncertain(overlay):
     frame = table.to_pandas()
     frame.attrs = settings
     assert (frame.acceleration == 60.0).all()
-    text = page.make((ROOT / "workflow/templates/contact.md").read_text(encoding="utf-8"), frame, advice)
+    text = page.make((ROOT / "workflow/rules/machine/contact.md").read_text(encoding="utf-8"), frame, advice)
     model = settings["model"]
     assert f"**k_c = {format_plain(model['stiffness'], 3)} N/m^1.5 and d_c = {model['damping']:.3g} N s/m.**" in text
     assert "Hertz's formula does not hold" in text
@@ -184,7 +184,7 @@ def test_without_advice_nothing_is_compared():
     settings, advice = made(MINE)
     frame = pd.DataFrame(variants.make(advice.head(0), settings))
     frame.attrs = settings
-    text = page.make((ROOT / "workflow/templates/contact.md").read_text(encoding="utf-8"), frame, advice.head(0))
+    text = page.make((ROOT / "workflow/rules/machine/contact.md").read_text(encoding="utf-8"), frame, advice.head(0))
     assert "There is no advised amplitude" in text
 
 

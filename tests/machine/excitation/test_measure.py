@@ -16,7 +16,7 @@ from conveyor_pipeline.machine.excitation.comparison import NO, PERHAPS, WITH, W
 DRIVE = Drive(harmonics=((2, 0.05, 0.7, 0.08, -2.5), (3, 0.02, 3.0, 0.0, 0.0)), cycles=200.0, noise=0.1)
 
 
-TEMPLATE = (ROOT / "workflow/templates/excitation.md").read_text()
+TEMPLATE = (ROOT / "workflow/rules/machine/excitation.md").read_text()
 
 
 def tables_of(drive: Drive) -> dict[str, pd.DataFrame]:

@@ -12,7 +12,7 @@ from conveyor_pipeline.config.tables import TABLES
 from conveyor_pipeline.machine.operating import drive, drive_page, populations, transit
 
 SETTINGS = {**TABLES["operating/drive_front"](si_config()), "starts": 24, "longest": 2.0}
-TEMPLATE = (ROOT / "workflow/templates/drive.md").read_text()
+TEMPLATE = (ROOT / "workflow/rules/machine/drive.md").read_text()
 PAPER = [50.0, math.radians(12.0), 0.0]
 
 

@@ -25,7 +25,7 @@ from conveyor_pipeline.machine.operating import (
     transit,
 )
 
-TEMPLATE = (ROOT / "workflow/templates/operating_chart.md").read_text()
+TEMPLATE = (ROOT / "workflow/rules/machine/operating_chart.md").read_text()
 BOX = {
     **si_config()["operating"],
     "starts": 64,

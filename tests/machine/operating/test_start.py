@@ -17,7 +17,7 @@ from conveyor_pipeline.machine.operating.ramps import ramp_ends
 
 SETTINGS = {**TABLES["operating/start"](si_config()), "starts": 1}
 HALF = 0.01  # s, of a cycle of 50 Hz
-TEMPLATE = (ROOT / "workflow/templates/start.md").read_text()
+TEMPLATE = (ROOT / "workflow/rules/machine/start.md").read_text()
 
 
 def rows_of(**model: float) -> tuple[np.ndarray, dict]:

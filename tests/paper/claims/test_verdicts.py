@@ -632,7 +632,7 @@ def test_the_onset_by_dimension_is_half_way_between_both_ends():
 
 
 def test_the_page_explains_verdicts_and_has_dashes_for_missing_numbers():
-    template = (ROOT / "workflow/templates/claims.md").read_text(encoding="utf-8")
+    template = (ROOT / "workflow/rules/paper/claims.md").read_text(encoding="utf-8")
     claim = {"where": "3.1", "statement": "", "quantities": quantities(onset=[1.0, 2.0])}
     claim["quantities"]["onset"]["because"] = "why"
     found = Finding({}, {"onset": 9.0}, "A note")

@@ -84,7 +84,7 @@ def test_the_page_compares_the_default_tolerance_with_the_paper_s_method(compare
         for scene in SCENES
         for ending, table in (("", compared), ("_times", compared.attrs["times"]))
     }
-    template = (ROOT / "workflow/templates/benchmark.md").read_text(encoding="utf-8")
+    template = (ROOT / "workflow/rules/study/benchmark.md").read_text(encoding="utf-8")
     text = benchmark_page.make(template, **tables)
     rows = [line.split(" | ") for line in text.splitlines() if line.startswith("| ") and "Motion" not in line]
     assert [row[0] for row in rows] == [f"| {scene}" for scene in SCENES]

@@ -41,7 +41,7 @@ rule calibration_page:
     input:
         **tables_of(*(f"calibration/{name}" for name in ("parameters", "fit", "alternatives", "prediction", "next"))),
         measurements=measured_file("calibration"),
-        template=source("workflow/templates/calibration.md"),
+        template=source("workflow/rules/machine/calibration.md"),
     output:
         page=result("calibration.md"),
     log:

@@ -24,7 +24,7 @@ rule contact_page:
     """The contact in words."""
     input:
         **tables_of("contact/variants", "operating/advice"),
-        template=source("workflow/templates/contact.md"),
+        template=source("workflow/rules/machine/contact.md"),
     output:
         page=result("contact.md"),
     log:

@@ -56,7 +56,7 @@ rule excitation_page:
     """The measured drive in words."""
     input:
         **tables_of(*(f"excitation/{name}" for name in ("parameters", "harmonics", "quality", "comparison"))),
-        template=source("workflow/templates/excitation.md"),
+        template=source("workflow/rules/machine/excitation.md"),
     output:
         page=result("excitation.md"),
     log:

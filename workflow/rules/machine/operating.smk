@@ -158,7 +158,7 @@ rule operating_chart:
     """The operating chart in words."""
     input:
         **tables_of(*CHART_TABLES),
-        template=source("workflow/templates/operating_chart.md"),
+        template=source("workflow/rules/machine/operating_chart.md"),
     output:
         chart=result("operating/chart.md"),
     log:
@@ -200,7 +200,7 @@ rule operating_page:
     """Switching the drive, or its recommended settings, in words."""
     input:
         unpack(lambda wildcards: ON_REQUEST[wildcards.page]),
-        template=source("workflow/templates/{page}.md"),
+        template=source("workflow/rules/machine/{page}.md"),
     output:
         result("{page}.md"),
     log:

@@ -53,8 +53,8 @@ ARTICLE_PARTS = {
 # Figures of the paper's conveyor that README and guides show.
 PICTURES = ("overview", "work_precision", "fig04")
 DIAGRAMS = {name: f"{DOCS}diagrams/{name}.png" for name in ("cycle", "contact", "friction", "states")}
-ARTICLE = source("workflow/templates/article.md")
-SITE_TEMPLATES = [ARTICLE, *sources("workflow/templates/site/*.md")]
+ARTICLE = source("workflow/rules/pages/article.md")
+SITE_TEMPLATES = [ARTICLE, *sources("workflow/rules/pages/site/*.md")]
 SITE_PAGES = [result(f"site_pages/{Path(file).name}") for file in SITE_TEMPLATES]
 LIBRARY = modules("conveyor/**/*")
 # The reference of tables lists the columns of all modules with a mapping TABLES.
@@ -65,7 +65,7 @@ rule page:
     """A page of the documentation."""
     input:
         unpack(inputs_of_page),
-        template=source("workflow/templates/{page}.md"),
+        template=source("workflow/rules/pages/{page}.md"),
     output:
         f"{DOCS}{{page}}.md",
     log:
@@ -129,7 +129,7 @@ rule kept_pages:
     """README and metadata."""
     input:
         facts=result("facts.json"),
-        templates=[source(f"workflow/templates/{name}") for name in KEPT_PAGES],
+        templates=[source(f"workflow/rules/pages/{name}") for name in KEPT_PAGES],
     output:
         [f"{PROJECT}{name}" for name in KEPT_PAGES],
     log:
@@ -146,7 +146,7 @@ rule article:
         figure_files(),
         **ARTICLE_PARTS,
         templates=[ARTICLE],
-        frame=source("workflow/templates/article.typ"),
+        frame=source("workflow/rules/pages/article.typ"),
     output:
         text=result("article/article.md"),
         pdf=result("article.pdf"),

@@ -11,7 +11,7 @@ rule claims:
     """The paper's statements."""
     input:
         read=lambda wildcards: tables_of_claims(CLAIMS),
-        template=source("workflow/templates/claims.md"),
+        template=source("workflow/rules/paper/claims.md"),
     output:
         claims=table("results/claims"),
         report=report(result("claims.md"), category="Claims", labels={"figure": "the paper's statements"}),
@@ -34,7 +34,7 @@ rule claim:
     """One of the statements."""
     input:
         read=lambda wildcards: tables_of_claims(claim_alone(wildcards)),
-        template=source("workflow/templates/claims.md"),
+        template=source("workflow/rules/paper/claims.md"),
     output:
         report=result("claims/{name}.md"),
     log:

@@ -32,7 +32,7 @@ rule benchmark:
     """The solver compared with the paper's method."""
     input:
         **PRECISION,
-        template=source("workflow/templates/benchmark.md"),
+        template=source("workflow/rules/study/benchmark.md"),
     output:
         result("benchmark.md"),
     log:
