@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from project import si_config
 
-from conveyor import Block
+from conveyor import Block, simulate_block
 from conveyor.analysis.map_states import plate_heights
 from conveyor_pipeline.machine import checks
 from conveyor_pipeline.machine.operating import advice, bodies, body_limits, parts, populations, transit
@@ -52,6 +52,22 @@ def test_tall_blocks_tip_over_and_flat_ones_do_not():
     tall = SETTINGS | {"body": {"length": 2e-3, "height": 6e-3, "tilt": 0.02}, "length": 0.02, "longest": 1.0}
     found = [transit.measure(np.array([60.0]), own, (populations.IDENTICAL,)).tipped[0] for own in (tall, SETTINGS)]
     assert found == [1.0, 0.0]
+
+
+def test_blocks_that_fall_back_have_not_tipped_over():
+    """On a track that falls, a cube may lean back farther than 45° without tipping over."""
+    model = SETTINGS["model"] | {"inclination": -0.3}
+    own = SETTINGS | {"model": model, "body": {"length": 2e-3, "height": 2e-3, "tilt": 1.0}, "longest": 0.3}
+    own |= {"height": [0.0, 0.0], "vz0": [0.0, 0.0]}
+    rows = parts.population(np.array([10.0]), own, populations.IDENTICAL)
+    block, tilts = Block(2e-3, 2e-3), parts.tilts_of(own)
+    ends = [
+        simulate_block(row, block, tilt=tilt, duration=0.3).sample(0.3)["angle"]
+        for row, tilt in zip(parts.raise_blocks(rows, block, tilts), tilts.tolist(), strict=True)
+    ]
+    tipped = np.abs(ends) > 1.0
+    assert transit.follow_blocks(rows, own).tipped.tolist() == tipped.tolist()
+    assert tilts[~tipped].max() > np.pi / 4
 
 
 def test_the_advice_says_what_it_would_be_for_points():

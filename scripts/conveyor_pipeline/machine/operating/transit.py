@@ -24,6 +24,9 @@ from conveyor_pipeline.machine.operating.populations import (
 
 # Excitation cycles after which impacts and forces count, so that the drop onto the track does not.
 DROP = 20
+# rad, nearly a right angle: a block that has turned so far has landed on another side. A block whose centre only passes
+# above a corner may fall back.
+TIPPED = math.radians(80.0)
 
 
 def quantile_fields() -> list:
@@ -75,17 +78,14 @@ def follow(
 
 
 def follow_blocks(rows: np.ndarray, settings: dict, *, threads: int = 1, progress: str | None = None) -> Columns:
-    """What `follow` returns, with airtime, largest_tilt and `tipped`, for blocks: parts with the section `body`.
-
-    A block tips over if its centre passes above the corner on which it stands.
-    """
+    """What `follow` returns, with airtime, largest_tilt and `tipped`, for blocks: parts with the section `body`."""
     block = Block(settings["body"]["length"], settings["body"]["height"])
     tilts = np.resize(tilts_of(settings), len(rows))  # the same in each population
     longest = settings["longest"]
     track = {"length": settings["length"], "longest": longest, "begin": time_of_drop(rows["frequency"], longest)}
     options = {"tolerance": settings["tolerance"], "threads": threads, "progress": progress}
     run = block_transits(raise_blocks(rows, block, tilts), block, tilts, **track, **options)
-    tipped = run.largest_tilt > math.atan2(block.length, block.height)
+    tipped = run.largest_tilt > TIPPED
     return Columns({**run, "arrival": run.arrival[:, None], "velocity": run.velocity[:, None], "tipped": tipped})
 
 
