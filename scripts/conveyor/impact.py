@@ -82,13 +82,13 @@ def damping_of(restitution: float, speed: float, conveyor: Any) -> float:
 
     if excess(0.0) <= 0.0:  # a contact without damping takes nothing
         return 0.0
-    most = RANGES["damping"][1] / unit
-    low, high = 0.0, min(1.0, most)
+    limit = RANGES["damping"][1] / unit
+    low, high = 0.0, min(1.0, limit)
     while excess(high) > 0.0:
-        if high == most:
+        if high == limit:
             largest = f"the largest damping, {RANGES['damping'][1]:g} N s/m"
             raise ValueError(f"restitution = {restitution!r} needs more than {largest}, at {speed:g} m/s")
-        low, high = high, min(2.0 * high, most)
+        low, high = high, min(2.0 * high, limit)
     return root(excess, low, high) * unit
 
 

@@ -83,38 +83,38 @@ def material(name: str) -> Material:
     >>> round(polyurethane.modulus / 1e6, 1), polyurethane.poisson  # MPa
     (13.2, 0.5)
     """
-    known = isinstance(name, str)
-    if known and name in materials():
+    is_text = isinstance(name, str)
+    if is_text and name in materials():
         return materials()[name]
-    found = SHORE.fullmatch(name) if known else None
+    found = SHORE.fullmatch(name) if is_text else None
     if not found:
         raise ValueError(f"name = {name!r} is not one of {', '.join(materials())}, or such as {ELASTOMERS[0]}_60A")
     hardness, scale = int(found[2]), found[3]
-    least, most = HARDNESS[scale]
-    if not least <= hardness <= most:
-        raise ValueError(f"name = {name!r} must have a hardness Shore {scale} from {least} to {most}")
+    softest, hardest = HARDNESS[scale]
+    if not softest <= hardness <= hardest:
+        raise ValueError(f"name = {name!r} must have a hardness Shore {scale} from {softest} to {hardest}")
     modulus = shore_modulus(hardness, scale)
     low, high = (factor * modulus for factor in UNCERTAINTY)
     source = "Gent (1958)" if scale == "A" else "Qi, Joyce and Boyce (2003)"
     return Material(name, modulus, low, high, INCOMPRESSIBLE, f"{found[1]} of {hardness} Shore {scale}", source)
 
 
-def constants_of(name: str, given: Any) -> tuple[float, float]:
+def constants_of(name: str, chosen: Any) -> tuple[float, float]:
     """Modulus (Pa) and Poisson's ratio of a Material, its name, or a pair of numbers; ValueError for other values."""
-    if isinstance(given, str):
+    if isinstance(chosen, str):
         try:
-            given = material(given)
+            chosen = material(chosen)
         except ValueError as error:
             raise ValueError(f"{name}: {error}") from None
-    if isinstance(given, Material):
-        return given.modulus, given.poisson
+    if isinstance(chosen, Material):
+        return chosen.modulus, chosen.poisson
     try:
-        modulus, poisson = map(float, given)
+        modulus, poisson = map(float, chosen)
     except (TypeError, ValueError):
-        raise ValueError(f"{name} = {given!r} must be a material, or a modulus in Pa and Poisson's ratio") from None
+        raise ValueError(f"{name} = {chosen!r} must be a material, or a modulus in Pa and Poisson's ratio") from None
     if not (SOFTEST <= modulus <= STIFFEST and -1.0 < poisson <= 0.5):
         limits = f"a modulus in [{SOFTEST:g}, {STIFFEST:g}] Pa and Poisson's ratio in (-1, 0.5]"
-        raise ValueError(f"{name} = {given!r} must have {limits}")
+        raise ValueError(f"{name} = {chosen!r} must have {limits}")
     return modulus, poisson
 
 

@@ -63,49 +63,53 @@ def follow(system: System, begin: arb, end: arb, delta: arb, y: arb, columns: in
     impacts: list[Impact] = []
     contact, touched = arb(0), begin
     if delta > 0:
-        here = _Contact(delta.sqrt(), y, begin)
+        piece = _Contact(delta.sqrt(), y, begin)
     elif delta < 0:
-        here = Flight(begin, -delta, -y, system.gamma)
+        piece = Flight(begin, -delta, -y, system.gamma)
     else:
         raise Refused("an impact or a separation lies at the section")
     for _ in range(MAX_PIECES):
-        if isinstance(here, Flight):
-            lapse = _find_impact(here, end)
+        if isinstance(piece, Flight):
+            lapse = _find_impact(piece, end)
             if lapse is None:
-                left = end - here.phase
-                return Arrival(-here.gap(left), -here.rate(left), here.carry(matrix, left), impacts, contact)
-            matrix = here.carry(matrix, lapse)
-            touched = here.phase + lapse
+                remaining = end - piece.phase
+                return Arrival(
+                    -piece.gap(remaining), -piece.rate(remaining), piece.carry(matrix, remaining), impacts, contact
+                )
+            matrix = piece.carry(matrix, lapse)
+            touched = piece.phase + lapse
             # The speed is positive: the gap falls where it has its root.
-            impacts.append(Impact(touched, -here.rate(lapse)))
-            here = _Contact(arb(0), impacts[-1].speed, touched)
+            impacts.append(Impact(touched, -piece.rate(lapse)))
+            piece = _Contact(arb(0), impacts[-1].speed, touched)
             continue
-        step = make_step(system, here, columns)
-        s, event = _find_end(system, step, here, end)
+        step = make_step(system, piece, columns)
+        s, event = _find_end(system, step, piece, end)
         matrix = step.carry(matrix, s)
-        here = _Contact(*(step.value(component, s) for component in (W, Y, PHASE)))
+        piece = _Contact(*(step.value(component, s) for component in (W, Y, PHASE)))
         if event == "end":
-            return Arrival(here.w * here.w, here.y, matrix, impacts, contact + end - touched)
+            return Arrival(piece.w * piece.w, piece.y, matrix, impacts, contact + end - touched)
         if event == "separation":
-            contact += here.phase - touched
+            contact += piece.phase - touched
             # At w = 0 is δ' = Y, negative: w falls where it has its root.
-            here = Flight(here.phase, arb(0), -here.y, system.gamma)
+            piece = Flight(piece.phase, arb(0), -piece.y, system.gamma)
     raise Refused(f"the motion does not reach its end within {MAX_PIECES} steps and flights")
 
 
 def _find_impact(flight: Flight, end: arb) -> arb | None:
     """The time to the impact that ends a flight, or None if it reaches the phase `end`; the gap is positive before."""
-    left = end - flight.phase
-    bracket = bracket_first_root(flight.gap, flight.rate, left.upper(), flight.gap0.is_zero(), "the gap of a flight")
+    remaining = end - flight.phase
+    bracket = bracket_first_root(
+        flight.gap, flight.rate, remaining.upper(), flight.gap0.is_zero(), "the gap of a flight"
+    )
     if bracket is None:
         return None
     lapse = sharpen(flight.gap, flight.rate, *bracket)
-    if not lapse < left:
+    if not lapse < remaining:
         raise Refused("an impact lies at the section")
     return lapse
 
 
-def _find_end(system: System, step: Step, here: _Contact, end: arb) -> tuple[arb, str]:
+def _find_end(system: System, step: Step, contact: _Contact, end: arb) -> tuple[arb, str]:
     """The s at which a step ends, and why: "separation", "end" (the phase is reached) or "step"; w > 0 before."""
 
     def w(s: arb) -> arb:
@@ -116,33 +120,33 @@ def _find_end(system: System, step: Step, here: _Contact, end: arb) -> tuple[arb
         value = w(s)
         return (step.value(Y, s) - system.law.beta * value * value) / 2
 
-    def ahead(s: arb) -> arb:
+    def remaining(s: arb) -> arb:
         return end - step.value(PHASE, s)
 
-    bracket = bracket_first_root(w, slope, step.length, here.w.is_zero(), "the penetration of a contact")
+    bracket = bracket_first_root(w, slope, step.length, contact.w.is_zero(), "the penetration of a contact")
     separation = None if bracket is None else sharpen(w, slope, *bracket)
     reach = step.length if separation is None else separation.lower()
     # dφ/ds = w > 0 up to here: the phase is reached at most once.
-    if not ahead(reach) > 0:
-        return _find_arrival(w, ahead, reach), "end"
+    if not remaining(reach) > 0:
+        return _find_arrival(w, remaining, reach), "end"
     if separation is None:
         return step.length, "step"
-    if not ahead(separation) > 0:
+    if not remaining(separation) > 0:
         raise Refused("a separation lies at the section")
     return separation, "separation"
 
 
-def _find_arrival(w, ahead, reach: arb) -> arb:
+def _find_arrival(w, remaining, reach: arb) -> arb:
     """The s below `reach` at which the end of the motion is reached; `reach` is exact, and w > 0 is proved up to it."""
-    if not ahead(reach) < 0:
+    if not remaining(reach) < 0:
         raise Refused("the section lies at the end of a step")
     low, high = arb(0), reach
     for _ in range(BISECTIONS):
         centre = low.union(high).mid()
-        if ahead(centre) > 0:
+        if remaining(centre) > 0:
             low = centre
-        elif ahead(centre) < 0:
+        elif remaining(centre) < 0:
             high = centre
         if w(low.union(high)) > 0:
-            return sharpen(ahead, lambda s: -w(s), low, high)
+            return sharpen(remaining, lambda s: -w(s), low, high)
     raise Refused("grazing: the section is reached while the penetration vanishes")

@@ -54,9 +54,9 @@ def residual_slope(arrivals: list[Arrival]) -> arb_mat:
     size = 2 * len(arrivals)
     rows = [[arb(0)] * size for _ in range(size)]
     for row, entries in enumerate(rows):
-        matrix, own = arrivals[row // 2].matrix, row - row % 2
-        entries[own] += matrix[row % 2, 0]
-        entries[own + 1] += matrix[row % 2, 1]
+        matrix, first = arrivals[row // 2].matrix, row - row % 2
+        entries[first] += matrix[row % 2, 0]
+        entries[first + 1] += matrix[row % 2, 1]
         entries[(row + 2) % size] -= 1
     return arb_mat(rows)
 

@@ -34,7 +34,7 @@ def record_results(parameters, first, memory, running, results, step, evaluation
 
     Returns the number of trajectories that are still `running`, shape (lanes,), which is changed.
     """
-    left = 0
+    still_running = 0
     for lane in range(len(running)):
         total = 0.0
         for column in range(4):
@@ -49,8 +49,8 @@ def record_results(parameters, first, memory, running, results, step, evaluation
             row[scheme.PEAK_FORCE] *= parameters[first + lane, model.MASS]
             row[scheme.FORCE_EVALUATIONS] = evaluations
             row[scheme.STATUS] = OK if finite else NOT_FINITE
-        left += running[lane]
-    return left
+        still_running += running[lane]
+    return still_running
 
 
 @compiled_inline

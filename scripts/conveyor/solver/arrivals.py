@@ -78,13 +78,13 @@ def has_arrived(record):
 
 
 @compiled_into_callers
-def blocks_to_skip(c, block, repetition, motion, horizontal, left, ahead):
+def blocks_to_skip(c, block, repetition, motion, horizontal, time_left, distance_left):
     """How many of the next blocks of cycles repeat the last one, and contain neither a sample nor an arrival.
 
     repetition : see skip_blocks
     motion, horizontal : at the end of the last block
-    left : time to the next sample, s
-    ahead : from the furthest position in the last block to the next distance, m
+    time_left : to the next sample, s
+    distance_left : from the furthest position in the last block to the next distance, m
     """
     cycles, same = repetition
     speed = max(c.a_x, c.a_z) / c.omega
@@ -97,9 +97,9 @@ def blocks_to_skip(c, block, repetition, motion, horizontal, left, ahead):
     if deviation > same * speed:
         return 0
     advance = horizontal.x - block.x
-    blocks = left / (cycles * c.period)
+    blocks = time_left / (cycles * c.period)
     if advance > 0.0:
-        blocks = min(blocks, ahead / advance)
+        blocks = min(blocks, distance_left / advance)
     return max(int((1.0 - ROUNDING) * blocks), 0)  # never beyond the sample by a rounding error
 
 
@@ -113,11 +113,11 @@ def skip_blocks(c, record, block, repetition, clock, motion, horizontal):
     if cycles == 0 or clock.cycle < block.cycle + cycles or not motion.touching:
         return clock, horizontal, block
     if clock.cycle == block.cycle + cycles:
-        ahead = math.inf
+        distance_left = math.inf
         if record.arrivals.size > 0:
-            ahead = record.distances[int(record.results[ARRIVED])] - block.furthest
-        left = next_time(record) - clock.begin
-        skipped = blocks_to_skip(c, block, repetition, motion, horizontal, left, ahead)
+            distance_left = record.distances[int(record.results[ARRIVED])] - block.furthest
+        time_left = next_time(record) - clock.begin
+        skipped = blocks_to_skip(c, block, repetition, motion, horizontal, time_left, distance_left)
         clock = clock_at(c, clock.origin, clock.first, clock.cycle + skipped * cycles)
         x = horizontal.x + skipped * (horizontal.x - block.x)
         horizontal = Horizontal(x, horizontal.vx, horizontal.sigma)

@@ -136,11 +136,11 @@ def search(series, row, start, end, shortest, noise):
         f, gradient, bend = derivatives(series, row, s)
     for _ in range(MAX_STEPS):
         f = max(f, 0.0)
-        left = end - s
-        lowest, highest = max(-second, bend - third * left), min(second, bend + third * left)
-        if gradient >= 0.0 and gradient + min(lowest, 0.0) * left >= 0.0:
+        remaining = end - s
+        lowest, highest = max(-second, bend - third * remaining), min(second, bend + third * remaining)
+        if gradient >= 0.0 and gradient + min(lowest, 0.0) * remaining >= 0.0:
             return ABSENT, end, 0.0
-        if gradient + max(highest, 0.0) * left < 0.0:
+        if gradient + max(highest, 0.0) * remaining < 0.0:
             # The polynomial falls from here on, so that the sign at the end decides.
             low = s + shortest
             if low >= end or value(series, row, end) > (-noise if shortest > 0.0 else 0.0):
@@ -192,6 +192,6 @@ def first_root(series, row, start, end, leave):
         piece *= 2.0 if answer == ABSENT else 0.25
         piece = min(piece, end - s)
         shifted = expand_about(series, row, s)
-        answer, ahead, shortest = search(shifted, FIRST_ROW, 0.0, piece, shortest, noise)
-        s = end if answer == ABSENT and piece == end - s else s + ahead
+        answer, advance, shortest = search(shifted, FIRST_ROW, 0.0, piece, shortest, noise)
+        s = end if answer == ABSENT and piece == end - s else s + advance
     return math.inf

@@ -60,12 +60,12 @@ class BifurcationPoint(NamedTuple):
 
 def linearise(groups: Groups, state: np.ndarray, period: int, psi0: float = 0.0) -> Linearisation | None:
     """The image of a scaled state (x, y) at the phase ψ0 after `period` cycles, or None where the motion is lost."""
-    here = stroboscopic_map.state_of(groups, state)
-    status, matrices, features = stroboscopic_map.monodromy(packed(groups, psi0), TOLERANCE, here, period, 0.0)
+    moved = stroboscopic_map.state_of(groups, state)
+    status, matrices, features = stroboscopic_map.monodromy(packed(groups, psi0), TOLERANCE, moved, period, 0.0)
     if status != OK:
         return None
     impacts = int(features[:, stroboscopic_map.IMPACTS].sum())
-    return Linearisation(stroboscopic_map.smooth_state(groups, here), linear_algebra.chain(matrices), impacts)
+    return Linearisation(stroboscopic_map.smooth_state(groups, moved), linear_algebra.chain(matrices), impacts)
 
 
 def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | None:
@@ -87,23 +87,23 @@ def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | Non
     groups, (length, velocity) = groups_of(parameters), length_and_speed_units(parameters)
     psi0 = float(as_rows(parameters)[PSI0])
     c = contact.constants(packed(groups, psi0), TOLERANCE)
-    here = np.array(state) / (length, velocity)
+    moved = np.array(state) / (length, velocity)
     remaining = (-psi0 % (2.0 * math.pi)) / c.omega
     features, no_tangent = np.zeros(stroboscopic_map.FEATURES), np.empty((0, 2))
     if remaining > 0.0:
-        status = stroboscopic_map.advance(c, contact.workspace(), here, psi0, remaining, no_tangent, features)
+        status = stroboscopic_map.advance(c, contact.workspace(), moved, psi0, remaining, no_tangent, features)
         if status != OK:
             return None
-    return stroboscopic_map.smooth_state(groups, here)
+    return stroboscopic_map.smooth_state(groups, moved)
 
 
 def conditions(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> np.ndarray:
     """The functions whose zero is a bifurcation, as many as it has unknowns; NaN where the motion is lost."""
-    here = groups._replace(amplitude=float(unknown[-1]))
+    point_groups = groups._replace(amplitude=float(unknown[-1]))
     if kind == GRAZING:
-        touch = linearise(here, np.zeros(2), period, float(unknown[0]))
+        touch = linearise(point_groups, np.zeros(2), period, float(unknown[0]))
         return np.full(2, np.nan) if touch is None else touch.image
-    cycle = linearise(here, unknown[:2], period)
+    cycle = linearise(point_groups, unknown[:2], period)
     return np.full(3, np.nan) if cycle is None else np.append(cycle.image - unknown[:2], multiplier_test(kind, cycle))
 
 
@@ -130,21 +130,23 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
     23.9763
     """
 
-    def functions(here):
-        return conditions(kind, period, here, groups)
+    def functions(unknowns):
+        return conditions(kind, period, unknowns, groups)
 
-    def system(here):
-        value = functions(here)
-        return (value, difference_quotients(functions, here, DIFFERENCE)) if np.isfinite(value).all() else None
+    def system(unknowns):
+        value = functions(unknowns)
+        return (value, difference_quotients(functions, unknowns, DIFFERENCE)) if np.isfinite(value).all() else None
 
     if kind == GRAZING:
         # Derivatives jump at a touch. Newton's iteration may alternate between both sides, Broyden's method does not.
         solution = root(functions, unknown, tol=CONVERGED, options={"maxfev": EVALUATIONS})
-        here = solution.x if np.abs(solution.fun).max() < TOUCHES else None
+        solved = solution.x if np.abs(solution.fun).max() < TOUCHES else None
     else:
         limits = {"iterations": ITERATIONS, "largest": FARTHEST, "stagnant": STAGNANT}
-        here = newton(system, unknown, converged=CONVERGED, **limits)
-    return None if here is None else BifurcationPoint(kind, period, here, groups._replace(amplitude=float(here[-1])))
+        solved = newton(system, unknown, converged=CONVERGED, **limits)
+    return (
+        None if solved is None else BifurcationPoint(kind, period, solved, groups._replace(amplitude=float(solved[-1])))
+    )
 
 
 def bifurcation_near(parameters: np.ndarray, kind: str, state: np.ndarray, period: int) -> BifurcationPoint | None:
@@ -157,10 +159,10 @@ def bifurcation_near(parameters: np.ndarray, kind: str, state: np.ndarray, perio
     state : of the orbit there, δ (m) and v (m/s) at the phase ψ0, shape (2,)
     period : excitation cycles of the orbit
     """
-    groups, here = groups_of(parameters), at_phase_zero(parameters, state)
-    if here is None:
+    groups, at_zero = groups_of(parameters), at_phase_zero(parameters, state)
+    if at_zero is None:
         return None
-    guess = touching_point(groups, here, period) if kind == GRAZING else np.append(here, groups.amplitude)
+    guess = touching_point(groups, at_zero, period) if kind == GRAZING else np.append(at_zero, groups.amplitude)
     point = None if guess is None else find_bifurcation(kind, period, guess, groups)
     is_same = point is not None and abs(point.groups.amplitude / groups.amplitude - 1.0) < SAME
     return point if is_same else None
@@ -188,12 +190,12 @@ def touching_point(groups: Groups, state: np.ndarray, period: int) -> np.ndarray
     row = packed(groups)
     c = contact.constants(row, TOLERANCE)
     series, features = contact.workspace(), np.zeros(stroboscopic_map.FEATURES)
-    here, no_tangent = stroboscopic_map.state_of(groups, state), np.empty((0, 2))
+    moved, no_tangent = stroboscopic_map.state_of(groups, state), np.empty((0, 2))
     passed = []
     step = c.period / MOMENTS
     for n in range(period * MOMENTS):
-        passed.append((n % MOMENTS * step, *here))
-        if stroboscopic_map.advance(c, series, here, n % MOMENTS * step, step, no_tangent, features) != OK:
+        passed.append((n % MOMENTS * step, *moved))
+        if stroboscopic_map.advance(c, series, moved, n % MOMENTS * step, step, no_tangent, features) != OK:
             return None
     phase, x, speed = np.array(passed).T
     following = np.roll(speed, -1)

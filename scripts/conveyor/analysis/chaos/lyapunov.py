@@ -131,15 +131,15 @@ def lyapunov_spectrum(
         for i in range(begin, end):
             tangent, discarded = np.eye(2), (np.empty((transient, 2)), np.empty(transient))
             # The cycles of one row at a time: for many rows they would take gigabytes.
-            kept = np.full((blocks * cycles, 2), np.nan), np.full(blocks * cycles, np.nan)
-            for logs, contacts in (discarded, kept):
+            measured = np.full((blocks * cycles, 2), np.nan), np.full(blocks * cycles, np.nan)
+            for logs, contacts in (discarded, measured):
                 for first in range(0, len(logs), AT_ONCE):
                     if codes[i] == OK:
-                        own = logs[first : first + AT_ONCE], contacts[first : first + AT_ONCE]
+                        target = logs[first : first + AT_ONCE], contacts[first : first + AT_ONCE]
                         given = parameters[i], states[i], tolerance, harmonics
-                        codes[i] = fill_stretches(*given, tangent, *own)
-            values[i], errors[i] = stretching.exponents(kept[0], blocks)
-            contact_times[i] = kept[1].mean()
+                        codes[i] = fill_stretches(*given, tangent, *target)
+            values[i], errors[i] = stretching.exponents(measured[0], blocks)
+            contact_times[i] = measured[1].mean()
 
     for_each_chunk(work, len(parameters), threads=threads, chunk=4, progress=progress)
     period = 1.0 / parameters[:, FREQUENCY]
