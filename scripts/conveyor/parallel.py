@@ -22,21 +22,17 @@ FIRST, GROWTH, SECONDS = 1.0 / 512.0, 4.0, 1.0
 OF_THE_REST, OF_A_CHUNK = 0.5, 0.03
 
 
-def next_length(remaining: int, threads: int, chunk: int, length: int, seconds: float) -> int:
-    """The length of a thread's next range, of `remaining` points, after one of a `length` that took some seconds."""
+def next_length(points: int, threads: int, chunk: int, length: int, seconds: float) -> int:
+    """The length of a thread's next range, of `points` that remain, after one of a `length` that took some seconds."""
     least = max(int(OF_A_CHUNK * chunk), 1)
     if length == 0:
         wanted = max(int(FIRST * chunk), 1)
     else:
         wanted = min(max(int(length * min(GROWTH, SECONDS / max(seconds, 1e-9))), 1), chunk)
     if threads > 1:
-        wanted = min(wanted, max(int(OF_THE_REST * remaining / threads), least))
+        wanted = min(wanted, max(int(OF_THE_REST * points / threads), least))
     # A short rest belongs to the last range, because a few points may take as long as many.
-    return (
-        remaining
-        if remaining <= wanted or (remaining - wanted < least and remaining <= chunk and wanted >= least)
-        else wanted
-    )
+    return points if points <= wanted or (points - wanted < least and points <= chunk and wanted >= least) else wanted
 
 
 @cache

@@ -144,9 +144,9 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
     else:
         limits = {"iterations": ITERATIONS, "largest": FARTHEST, "stagnant": STAGNANT}
         solved = newton(system, unknown, converged=CONVERGED, **limits)
-    return (
-        None if solved is None else BifurcationPoint(kind, period, solved, groups._replace(amplitude=float(solved[-1])))
-    )
+    if solved is None:
+        return None
+    return BifurcationPoint(kind, period, solved, groups._replace(amplitude=float(solved[-1])))
 
 
 def bifurcation_near(parameters: np.ndarray, kind: str, state: np.ndarray, period: int) -> BifurcationPoint | None:
