@@ -30,7 +30,7 @@ BOX = {
     **si_config()["operating"],
     "starts": 64,
     "settling": 2000,
-    "model": {},
+    "model": {"angle": math.radians(12.0), "gravity": 9.81},
 }
 
 

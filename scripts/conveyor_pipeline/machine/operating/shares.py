@@ -226,13 +226,10 @@ def shares_at(
             error[row] = each[own].std(ddof=1) / math.sqrt(len(own)) if len(own) > 1 else np.nan
     share = count / starts
     acceleration = parameters["acceleration"][first]
-    normal_gravity = parameters["gravity"][first] * cos(parameters["inclination"][first])
-    harmonics = settings["model"].get("harmonics", ())
-    largest_fall = throw_number(1.0, angle=0.5 * math.pi, gravity=1.0, harmonics=harmonics)
     table = pd.DataFrame(
         {
             "acceleration": acceleration,
-            "vertical": acceleration * sin(parameters["angle"][first]) / normal_gravity * largest_fall,
+            "vertical": throw_number(acceleration, **settings["model"]),
             "state": labels.state[first],
             "period": labels.period[first],
             "longest_flight": labels.longest_flight[first],
