@@ -95,6 +95,11 @@ def length_and_speed_units(conveyor: Conveyor | np.ndarray) -> tuple[float, floa
     return float(gravity / omega**2), float(gravity / omega)
 
 
+def distance(conveyor: Conveyor | np.ndarray, state: np.ndarray, others: np.ndarray) -> float:
+    """The least distance of a state (δ in m, v in m/s) from others, shape (…, 2), in g/ω² and g/ω; inf for none."""
+    return float((np.abs(others - state) / length_and_speed_units(conveyor)).max(axis=-1).min(initial=math.inf))
+
+
 def amplitude_of(conveyor: Conveyor | np.ndarray, ratio: float) -> float:
     """The amplitude â (m/s²) at which a_z/g is `ratio`, for a Conveyor or a row of a table.
 

@@ -8,7 +8,7 @@ from ...columns import Columns
 from ...solver import contact
 from .. import stroboscopic_map
 from ..bifurcations.periodic_orbits import ORBIT_TOLERANCE, Orbit, orbit_near
-from ..dimensionless_groups import length_and_speed_units
+from ..dimensionless_groups import distance
 from .attractor_table import AttractorTable
 from .convergence import find_reached_orbit, is_in_chaotic_set
 
@@ -73,11 +73,6 @@ def orbit_attractor(row: np.ndarray, label: str, period: int, state: np.ndarray)
     start = np.array(state if orbit is None else orbit.state)
     _, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, start.copy(), period)
     return Attractor(label, period, orbit, np.vstack([start, strobes[:-1]]))
-
-
-def distance(row: np.ndarray, state: np.ndarray, others: np.ndarray) -> float:
-    """The least distance of a state from other states, shape (…, 2), in g/ω² and g/ω."""
-    return float((np.abs(others - state) / length_and_speed_units(row)).max(axis=-1).min())
 
 
 def identify(attractors: Attractors, labels: Columns) -> np.ndarray:

@@ -22,7 +22,7 @@ from ...solver.jit import compiled
 from ...solver.pieces import BEGIN_OF_CYCLE
 from ...solver.status import OK
 from .. import stroboscopic_map
-from ..dimensionless_groups import length_and_speed_units
+from ..dimensionless_groups import distance, length_and_speed_units
 from . import convergence, sampling
 from .attractor_table import NO_ATTRACTORS, AttractingOrbits, AttractorTable, ChaoticSets, append_row
 from .convergence import IN_CHAOTIC_SET, NOT_CONVERGED, PERIODIC, STAY, Trajectories
@@ -214,11 +214,6 @@ def find_trapping_region(
     return ((centre, factor / radius) if radius >= SMALLEST else None), spent
 
 
-def is_near(state: np.ndarray, others: np.ndarray, unit: np.ndarray) -> bool:
-    """Whether a state, shape (2,), is nearer than SMALLEST to one of other states, shape (n, 2)."""
-    return bool((np.abs((others - state) / unit).max(axis=1) < SMALLEST).any())
-
-
 def add_without_region(
     orbits: AttractingOrbits,
     candidates: list[tuple[np.ndarray, int, float]],
@@ -231,10 +226,9 @@ def add_without_region(
     candidates : state at pieces.BEGIN_OF_CYCLE, period and longest flight of each
     at_top : the conveyor with the phase pieces.BEGIN_OF_CYCLE
     """
-    c, unit = contact.constants(conveyor, tolerance), np.array(length_and_speed_units(conveyor))
-    known, count = np.empty((0, 2)), len(orbits.periods)
+    c, known, count = contact.constants(conveyor, tolerance), np.empty((0, 2)), len(orbits.periods)
     for state, period, flight in candidates:
-        if is_near(state, known, unit):
+        if distance(conveyor, state, known) < SMALLEST:
             continue
         refined = refine_orbit(at_top, tolerance, stroboscopic_map.smooth_state(c, state), period)
         if refined is None or not spectral_radius(refined[1]) < 1.0:
@@ -243,7 +237,7 @@ def add_without_region(
         state = stroboscopic_map.state_of(c, centre)
         status, strobes, _ = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
         reached = [convergence.find_reached_orbit(c, strobe, orbits, 0, count) >= 0 for strobe in strobes]
-        if status == OK and not any(reached) and not is_near(state, known, unit):
+        if status == OK and not any(reached) and distance(conveyor, state, known) >= SMALLEST:
             known = np.concatenate([known, strobes])
             orbits = append_row(orbits, conveyor, centre, NO_REGION, period, flight)
     return orbits
@@ -264,13 +258,12 @@ def find_attracting_orbits(
     chaotic : the known chaotic sets of the conveyor
     most : excitation cycles in all, after which no further orbit is searched for
     """
-    at_top, unit = stroboscopic_map.begin_at_top(parameters), np.array(length_and_speed_units(parameters))
-    constants = contact.constants(parameters, tolerance)
+    at_top, constants = stroboscopic_map.begin_at_top(parameters), contact.constants(parameters, tolerance)
     seen, orbits, left, without_region = np.empty((0, 2)), NO_ATTRACTORS.orbits, most, []
 
     def add(state: np.ndarray, period: int, flight: float) -> None:
         nonlocal seen, orbits, left
-        if is_near(state, seen, unit):
+        if distance(parameters, state, seen) < SMALLEST:
             return
         around = None
         if left > 0 and period <= LONGEST:

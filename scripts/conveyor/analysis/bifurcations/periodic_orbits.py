@@ -18,7 +18,7 @@ from ...solver import contact, contact_law
 from ...solver.model import FREQUENCY, Conveyor, Start, unpack
 from ...solver.status import OK
 from .. import stroboscopic_map
-from ..dimensionless_groups import length_and_speed_units
+from ..dimensionless_groups import distance, length_and_speed_units
 from .newton import newton
 
 ORBIT_TOLERANCE = 1e-13
@@ -211,11 +211,10 @@ def settled_orbit(row: np.ndarray, state: np.ndarray, periods: Iterable[int], cy
     status, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, end, cycles)
     if status != OK:
         return None
-    unit = np.array(length_and_speed_units(row))
     for period in periods:
-        if period < cycles and np.abs((strobes[-1] - strobes[-1 - period]) / unit).max() < 1e-2:
+        if period < cycles and distance(row, strobes[-1 - period], strobes[-1]) < 1e-2:
             orbit = orbit_near(row, end, period)
-            if orbit is not None and orbit.stable and np.abs((orbit.state - end) / unit).max() < 0.1:
+            if orbit is not None and orbit.stable and distance(row, end, orbit.state) < 0.1:
                 return orbit
     return None
 
