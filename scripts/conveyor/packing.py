@@ -16,8 +16,6 @@ from .parameters import HARMONIC, PARAMETERS, RANGES, TENSION_MODES, UNITS
 from .solver import model, plate
 from .solver.model import Conveyor, Start, check_static_friction, pack, unpack
 
-# The initial condition; ψ0 only shifts the phase at which a motion is observed.
-INITIAL_CONDITION = ("psi0", "z0", "vz0")
 AT_REST = Start()
 # The ends of the intervals of a row's numbers, and of the numbers of a harmonic (see solver.plate).
 _, _, (SMALLEST_ORDER, LARGEST_ORDER) = HARMONIC["order"]

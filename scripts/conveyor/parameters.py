@@ -67,6 +67,8 @@ HARMONIC = {
 HARMONICS = "harmonics of the plate's motion, which grow with its acceleration amplitude"
 MOST_HARMONICS = 12
 
+# Parameters of an initial condition; ψ0 only shifts the phase at which a motion is observed.
+INITIAL_CONDITION = ("psi0", "z0", "vz0")
 # Parameters that leave the motion normal to the track as it is.
 TANGENTIAL = ("friction", "phase_shift", "static_friction")
 

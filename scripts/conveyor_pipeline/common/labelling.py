@@ -7,7 +7,7 @@ import numpy as np
 from conveyor import DEFAULT_TOLERANCE, Columns, classify, restart
 from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS, AttractorTable, distinct_conveyors
 from conveyor.analysis.attractors.search import find_attractors
-from conveyor.packing import INITIAL_CONDITION
+from conveyor.parameters import INITIAL_CONDITION
 from conveyor_pipeline.common.axes import count_values
 
 # Conveyors per batch: the attractors of a conveyor take some 30 kB of memory.

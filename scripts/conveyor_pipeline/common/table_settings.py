@@ -8,9 +8,6 @@ from collections.abc import Iterable
 
 from conveyor.parameters import TANGENTIAL
 
-# Parameters of an initial condition, for tables that draw it from a box.
-INITIAL_CONDITION = ("psi0", "z0", "vz0")
-
 
 def without_tangential(model: dict) -> dict:
     """A model without the parameters that do not affect the motion normal to the track."""

@@ -1,5 +1,6 @@
 # Measured files of the machine, and models of the examples.
-from conveyor_pipeline.common.table_settings import INITIAL_CONDITION, model_of
+from conveyor.parameters import INITIAL_CONDITION
+from conveyor_pipeline.common.table_settings import model_of
 from conveyor_pipeline.config.entries import MEASURED_FILES
 
 EXAMPLES = ("bowl", "linear", "trough")  # complete conveyors in config/examples

@@ -15,7 +15,8 @@ from scipy.stats import qmc
 from conveyor import replace_parameters, sample_runs
 from conveyor.analysis.map_states import plate_heights
 from conveyor.elementary import exp, log
-from conveyor.packing import INITIAL_CONDITION, plate_peaks
+from conveyor.packing import plate_peaks
+from conveyor.parameters import INITIAL_CONDITION
 from conveyor_pipeline.common import grid
 from conveyor_pipeline.machine.calibration.measurements import Measurement
 

@@ -4,9 +4,9 @@ from typing import NotRequired
 
 from typing_extensions import TypedDict
 
-from conveyor.parameters import DESCRIPTIONS
+from conveyor.parameters import DESCRIPTIONS, INITIAL_CONDITION
 from conveyor_pipeline.common.settings import MODEL_TYPES, Line, Seed, described, interval, many, mapping, number, word
-from conveyor_pipeline.common.table_settings import INITIAL_CONDITION, model_of
+from conveyor_pipeline.common.table_settings import model_of
 from conveyor_pipeline.machine.calibration.measurements import CALIBRATED
 from conveyor_pipeline.machine.operating.settings import box_of
 

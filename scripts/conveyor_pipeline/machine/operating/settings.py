@@ -7,7 +7,7 @@ from typing import Any, NotRequired
 from typing_extensions import TypedDict
 
 from conveyor import UNITS
-from conveyor.parameters import DESCRIPTIONS
+from conveyor.parameters import DESCRIPTIONS, INITIAL_CONDITION
 from conveyor_pipeline.common.settings import (
     MODEL_TYPES,
     THROW,
@@ -27,7 +27,7 @@ from conveyor_pipeline.common.settings import (
     whole,
     word,
 )
-from conveyor_pipeline.common.table_settings import INITIAL_CONDITION, model_of
+from conveyor_pipeline.common.table_settings import model_of
 from conveyor_pipeline.machine.operating.supply import FORCES, amplitude_range
 
 # Largest changes that an advice may examine.
