@@ -9,7 +9,7 @@ from ...progress import progress_bar
 from .continuation import Bifurcation, check_doubling, multiplier_test
 from .periodic_orbits import orbit_near, settled_orbit
 
-FEIGENBAUM = 4.669201609102990
+FEIGENBAUM = 4.669201609102990  # limit of the ratios of `doubling_ratios` (Feigenbaum 1978; digits: Briggs 1991)
 RESOLVED = 1e-6  # of 1 + μ at a doubling of the cascade: six digits of its distance to the next one
 SECANT_STEPS = 12  # after which a doubling of the cascade is not resolved
 

@@ -11,9 +11,9 @@ from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.contact.derive import HERTZ, NAMED, drop_speed, moduli_of, on_level_plate
 from conveyor_pipeline.machine.contact.variants import BOUNCE, RADIUS, STATED, contacts, penetration, stiffness_range
 from conveyor_pipeline.machine.operating.advice import EVEN, FAST
+from conveyor_pipeline.machine.operating.chart import CERTAIN
 
 SPEEDS = (0.02, 0.05, 0.1, 0.2, 0.5)  # m/s, in the table of restitutions
-CERTAIN = 2.0  # standard errors that a change must exceed to be named
 NOTICEABLE = 0.2  # relative change of the velocity of the slowest parts that the page points out
 
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from conveyor_pipeline.common.csv_table import DELETE
+from conveyor_pipeline.common.csv_table import DELETE, MOST_FAULTS
 
 STANDARD_GRAVITY = 9.80665  # m/s², the unit g
 UNITS = {"m/s²": 1.0, "g": STANDARD_GRAVITY, "mm/s²": 1e-3, "mg": 1e-3 * STANDARD_GRAVITY}
@@ -32,7 +32,6 @@ AXES, SENSOR = tuple(DIRECTIONS), ("x", "z")  # the two pairs of columns
 MOST_SAMPLES = 2_000_000  # 80 s at 25 kHz; the fit of more takes minutes and gigabytes, and gains nothing
 MOST_BYTES = 50 * MOST_SAMPLES
 LEAST_SAMPLES = 64  # eight cycles of eight samples
-MOST_FAULTS = 5
 ANOTHER_RATE = 1.01  # a stated rate contradicts the times of a file by more, which no clock is wrong by
 EXAMPLE = 'time,along,normal, or excitation.columns names them by number, such as {time: "1", x: "2", z: "3"}'
 # Names of columns that need no `columns` in the config: phyphox writes `Acceleration x (m/s^2)`, others accel_x or ax.
@@ -104,7 +103,7 @@ def columns_entry(names: Mapping[str, str]) -> str:
 def find_columns(table: Any, settings: Mapping[str, Any]) -> tuple[dict[str, str], dict[str, int], list[str]]:
     """Names of the columns with their signs, their places in the table, and faults."""
     stated, names = settings.get("columns", {}), table.names
-    lower = [name.lower() for name in names]
+    lower, there = [name.lower() for name in names], ", ".join(quote(one) for one in names)
     found, places, faults = {}, {}, []
     for key, name in stated.items():
         sign, bare = ("-", name[1:]) if name.startswith("-") and name.lower() not in lower else ("", name)
@@ -114,7 +113,6 @@ def find_columns(table: Any, settings: Mapping[str, Any]) -> tuple[dict[str, str
         elif matches:
             faults.append(f"has the column {bare!r} twice, so excitation.columns.{key} names two; rename one")
         else:
-            there = ", ".join(quote(one) for one in names)
             faults.append(f"has no column {bare!r}, which excitation.columns.{key} names; there are {there}")
     for key, other in itertools.combinations(places, 2):
         if places[key] == places[other]:
@@ -148,7 +146,6 @@ def find_columns(table: Any, settings: Mapping[str, Any]) -> tuple[dict[str, str
         guess = {key: found.get(key) or guess_column(key, names, found) for key in ("time", *pair)}
         if "rate" in settings:
             del guess["time"]
-        there = ", ".join(quote(one) for one in names)
         or_rate = ", or state excitation.rate (Hz) in place of a time" if "time" in missing else ""
         faults.append(
             f"has no column {' and no column '.join(missing)}; there are {there}. Say which is which by "

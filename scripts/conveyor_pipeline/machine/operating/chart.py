@@ -29,7 +29,7 @@ from conveyor_pipeline.machine.operating.regimes import (
 from conveyor_pipeline.machine.operating.transit import spread_stderr, time_of_drop
 
 WORTH_CHANGING = 0.01  # relative change of velocity or spread from which a change of a parameter is named
-CERTAIN = 2.0  # standard errors that it must exceed, too
+CERTAIN = 2.0  # standard errors that a change must exceed to be named
 MOST_CHANGES = 4  # that are named
 MANY_LATE = 0.5  # share of late parts that a page points out
 # The states of motion in the words of the trade.

@@ -10,7 +10,7 @@ from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.steepness import is_steep
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.advice import EVEN, FAST
-from conveyor_pipeline.machine.operating.chart import stroke
+from conveyor_pipeline.machine.operating.chart import CERTAIN, stroke
 from conveyor_pipeline.machine.operating.populations import IDENTICAL, VARIED, differences
 from conveyor_pipeline.machine.operating.ramps import (
     AT_REST,
@@ -33,7 +33,6 @@ from conveyor_pipeline.machine.operating.start import LAST
 
 # Smallest difference of shares of jumping parts at which the way of switching on counts, besides two standard errors.
 DEPENDS = 0.05
-CERTAIN = 2.0
 FASTER = 0.1  # relative difference of median velocities at which it counts, too
 # What precedes the motion at an amplitude, in words.
 WAYS = {

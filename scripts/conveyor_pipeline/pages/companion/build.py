@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from conveyor import PARAMETERS, RANGES
-from conveyor.parameters import TANGENTIAL
+from conveyor.parameters import LAST, TANGENTIAL
 from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.figures import style
 
@@ -20,7 +20,6 @@ STATES = tuple(style.STATE_COLOURS)
 OPENING = "second"  # preset that the page shows first
 SEPARATION = 1e-6  # m, by which the second part starts higher
 LINE = 0.01  # width of a line in units of a plot's range
-LAST = 0.25  # share of the run over which the paper takes mean velocities (Sect. 3.1)
 
 
 def encode(table: pd.DataFrame) -> dict:

@@ -5,9 +5,9 @@ import math
 import numpy as np
 
 from conveyor import Run, conveyor_and_start, simulate
+from conveyor.parameters import LAST
 from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields, grid
-from conveyor_pipeline.paper.orbits.published_estimates import LAST
 
 TABLES = {
     "moved_impacts": (

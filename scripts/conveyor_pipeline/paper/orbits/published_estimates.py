@@ -8,11 +8,10 @@ import numpy as np
 from conveyor import Dimension, sample_runs
 from conveyor.analysis.fractals.scaling_region import normalise
 from conveyor.linear_algebra import fit_line
-from conveyor.parameters import DEFAULT_STEP
+from conveyor.parameters import DEFAULT_STEP, LAST
 from conveyor.progress import progress_bar
 
-LAST = 0.25  # share of a run over which Fig. 22 takes a mean
-SAMPLES = 501  # times in this share: over 40 per cycle of the paper; more do not change the mean
+SAMPLES = 501  # times in the share LAST of a run: over 40 per cycle of the paper; more do not change the mean
 # Excitation cycles between the points of portraits: ten time steps of the paper; in a settled motion the golden ratio,
 # which spreads the points of a periodic one evenly over its orbit.
 INTERVAL, SETTLED_INTERVAL = 2.5e-4, 0.6180339887498949

@@ -17,11 +17,11 @@ from conveyor import (
     periodic_orbit,
     simulate,
 )
+from conveyor.parameters import LAST
 from conveyor.progress import progress_bar
 from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.paper.orbits.published_estimates import (
     INTERVAL,
-    LAST,
     SETTLED_INTERVAL,
     THEILER,
     box_dimension_of_paper,

@@ -13,6 +13,7 @@ import pandas as pd
 from scipy.optimize import minimize_scalar
 
 from conveyor import Conveyor, Start, continue_orbit, parameter_table, periodic_orbit, plate_motion, simulate
+from conveyor.analysis.bifurcations.doubling_cascade import FEIGENBAUM
 from conveyor.methods import event_driven
 from conveyor.parameters import normal_gravity
 from conveyor_pipeline.common import fields, grid
@@ -40,8 +41,6 @@ SPEED = (0.05, 0.35, 1.0)  # m/s, of isolated impacts
 # Largest accepted relative differences, limited by extrapolation, by the last change of the stored ratios, by rounding,
 # and by the friction, which the theory of sliding takes as small.
 ACCEPTED = {"rigid": 1e-8, "cascade": 1e-5, "impact": 1e-9, "sliding": 1e-3}
-# Limit of the ratios of successive distances of period doublings (Feigenbaum 1978; digits: Briggs 1991).
-FEIGENBAUM = 4.669201609102990672
 TOLERANCE = 1e-14  # of contact steps
 LIGHT = 1e-5  # dimensionless damping so small that the loss of speed is proportional to it
 RUN = 20.0  # duration of a run in durations of an undamped impact
