@@ -528,20 +528,18 @@ def test_times_too_coarse_for_the_rate_are_refused_and_a_rate_replaces_them():
     assert_right(estimates(text, rate=PURE.rate))
 
 
-@pytest.mark.parametrize("limit", [0.7, 0.9, 0.95])
-def test_peaks_that_are_cut_off_before_some_noise_are_refused(limit):
-    """As by a sensor that saturates before its filter."""
-    time, readings = sampled(1730.0)
-    readings[0] = np.minimum(readings[0], limit * readings[0].max())
-    readings += 3e-4 * readings.max() * np.random.default_rng(2).standard_normal(readings.shape)
-    assert "cut-off peaks in the column x" in fault_of(text_of(time, readings))
-
-
-@pytest.mark.parametrize(("rate", "count"), [(730.0, 131), (730.0, 262), (913.0, 164), (1130.0, 271)])
-def test_cut_off_peaks_are_refused_also_in_a_short_recording(rate, count):
-    """With so few phases that the readings near the extremes do not show it, but the wave between them does."""
+@pytest.mark.parametrize(
+    ("rate", "count", "limit"),
+    [
+        *((1730.0, 3200, limit) for limit in (0.7, 0.9, 0.95)),
+        *((rate, count, 0.9) for rate, count in ((730.0, 131), (730.0, 262), (913.0, 164), (1130.0, 271))),
+    ],
+)
+def test_peaks_that_are_cut_off_before_some_noise_are_refused(rate, count, limit):
+    """As by a sensor that saturates before its filter. Short recordings have so few phases that the readings near the
+    extremes do not show it, but the wave between them does."""
     time, readings = sampled(rate, count=count)
-    readings[0] = np.minimum(readings[0], 0.9 * readings[0].max())
+    readings[0] = np.minimum(readings[0], limit * readings[0].max())
     readings += 3e-4 * readings.max() * np.random.default_rng(2).standard_normal(readings.shape)
     assert "cut-off peaks in the column x" in fault_of(text_of(time, readings))
 
