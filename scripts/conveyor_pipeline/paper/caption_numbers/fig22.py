@@ -5,7 +5,7 @@ import math
 import pandas as pd
 
 from conveyor_pipeline.paper.caption_numbers.bifurcation import is_chaotic
-from conveyor_pipeline.paper.claims.about_chaos import positive_onset, with_settled_motion
+from conveyor_pipeline.paper.claims.about_chaos import join_nearest, positive_onset, with_settled_motion
 
 
 def describe_exceptions(table: pd.DataFrame) -> str:
@@ -21,13 +21,8 @@ def numbers(
     settled = with_settled_motion(converged, states)
     positive = settled[settled["lambda"] > 0.0]
     counts = {"positive": len(positive), "periodic": int((positive.period > 0).sum())}
-    up = spectrum[(spectrum.branch == "up")].sort_values("acceleration", kind="stable")
-    joined = pd.merge_asof(
-        converged.sort_values("acceleration", kind="stable"),
-        up[["acceleration", "lambda_1"]].assign(chaotic=is_chaotic(up)),
-        on="acceleration",
-        direction="nearest",
-    )
+    up = spectrum[spectrum.branch == "up"]
+    joined = join_nearest(converged, up[["acceleration", "lambda_1"]].assign(chaotic=is_chaotic(up)))
     joined = joined[joined.chaotic]
     begin, end = positive_onset(euler), positive_onset(converged)
     between = states[states.acceleration.between(begin, end, inclusive="left")]

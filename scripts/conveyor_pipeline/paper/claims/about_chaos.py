@@ -89,15 +89,18 @@ def positive_onset(table: pd.DataFrame) -> float:
     return onset(table.acceleration, table["lambda"] > 0.0)
 
 
+def join_nearest(table: pd.DataFrame, others: pd.DataFrame) -> pd.DataFrame:
+    """The rows by amplitude, each with the columns of the row of `others` at the nearest amplitude."""
+    tables = (one.sort_values("acceleration", kind="stable") for one in (table, others))
+    return pd.merge_asof(*tables, on="acceleration", direction="nearest")
+
+
 def with_settled_motion(table: pd.DataFrame, states: pd.DataFrame) -> pd.DataFrame:
     """The rows with the state and the period of the motion to which each trajectory settles, and whether it is chaos.
 
     states : settled motions over the amplitude, of the same initial condition; those of the nearest amplitude are taken
     """
-    settled = states.sort_values("acceleration", kind="stable")[["acceleration", "state", "period"]]
-    rows = pd.merge_asof(
-        table.sort_values("acceleration", kind="stable"), settled, on="acceleration", direction="nearest"
-    )
+    rows = join_nearest(table, states[["acceleration", "state", "period"]])
     return rows.assign(chaotic=rows.state == "chaos")
 
 
