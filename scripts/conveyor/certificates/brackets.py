@@ -107,8 +107,7 @@ def bracket_fold(shooting: Shooting, acceleration: float, strobes: np.ndarray, h
         return prove_zero(equations, near, shooting.least)
 
     def fold_test(zero: Zero) -> arb:
-        trace, determinant, _ = linearise(shooting, zero.evidence)
-        return 1 - trace + determinant
+        return ProvedOrbit(shooting, zero, *linearise(shooting, zero.evidence)).fold_test
 
     turn = approach_root(lambda place: fold_test(zero_at(place)), arb(0), NEAR_ON_ARC)
     half = arb(half_arc)
