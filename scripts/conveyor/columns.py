@@ -103,10 +103,10 @@ class Columns(Mapping[str, np.ndarray]):
             names = getattr(parameters, "dtype", np.dtype(float)).names
             if names is None:
                 raise TypeError(f"parameters must be a table from parameter_table, got {type(parameters).__name__}")
-            given = {name: parameters[name] for name in names if name != "harmonics"}
+            inputs = {name: parameters[name] for name in names if name != "harmonics"}
             waves = np.moveaxis(parameters["harmonics"], -1, 0) if "harmonics" in names else ()
-            given |= {f"harmonic_{1 + k // len(WAVES)}_{WAVES[k % len(WAVES)]}": wave for k, wave in enumerate(waves)}
-            columns = given | columns
+            inputs |= {f"harmonic_{1 + k // len(WAVES)}_{WAVES[k % len(WAVES)]}": wave for k, wave in enumerate(waves)}
+            columns = inputs | columns
         if len({array.shape for array in columns.values()}) > 1:
             shapes = f" and parameters {parameters.shape}" if parameters is not None else ""
             raise ValueError(f"{self!r}{shapes} have no common shape")

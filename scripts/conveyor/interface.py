@@ -111,12 +111,12 @@ def with_unknown(known: Attractors, labelled: Columns) -> tuple[Attractors, np.n
 
 def without_transients(known: Attractors, numbers: np.ndarray) -> tuple[Attractors, np.ndarray]:
     """The attractors without the chaotic sets in which no sample ends, and the new number of each sample's."""
-    kept, orbits = np.ones(len(known.found), dtype=np.bool_), len(known.table.orbits.periods)
+    remains, orbits = np.ones(len(known.found), dtype=np.bool_), len(known.table.orbits.periods)
     sets = slice(orbits, orbits + len(known.table.chaotic.low))
-    kept[sets] = np.isin(np.arange(len(kept)), numbers)[sets]
-    chaotic = ChaoticSets(*(column[kept[sets]] for column in known.table.chaotic))
-    found = [one for one, is_kept in zip(known.found, kept, strict=True) if is_kept]
-    return Attractors(found, known.conveyor, known.table._replace(chaotic=chaotic)), (np.cumsum(kept) - 1)[numbers]
+    remains[sets] = np.isin(np.arange(len(remains)), numbers)[sets]
+    chaotic = ChaoticSets(*(column[remains[sets]] for column in known.table.chaotic))
+    found = [attractor for attractor, is_kept in zip(known.found, remains, strict=True) if is_kept]
+    return Attractors(found, known.conveyor, known.table._replace(chaotic=chaotic)), (np.cumsum(remains) - 1)[numbers]
 
 
 def with_velocities(
@@ -127,30 +127,30 @@ def with_velocities(
     numbers : of the attractor of each label, shape (n,)
     """
     states = []
-    for k, one in enumerate(found):
-        own = np.flatnonzero(numbers == k)[:1]
-        state = one.strobes[0]
-        if not one.period and len(own):
-            state = np.array([labelled.delta[own[0]], labelled.v[own[0]]])
+    for k, attractor in enumerate(found):
+        rows = np.flatnonzero(numbers == k)[:1]
+        state = attractor.strobes[0]
+        if not attractor.period and len(rows):
+            state = np.array([labelled.delta[rows[0]], labelled.v[rows[0]]])
         states.append(state)
     starts = stroboscopic_map.pack_states(np.tile(row, (len(found), 1)), np.array(states).reshape(-1, 2), tolerance)
-    periods = np.array([max(one.period, 1) for one in found])
-    whole = periods * np.ceil(CYCLES * LAST / periods) / LAST
-    durations = whole / row[FREQUENCY]
+    periods = np.array([max(attractor.period, 1) for attractor in found])
+    cycles = periods * np.ceil(CYCLES * LAST / periods) / LAST
+    durations = cycles / row[FREQUENCY]
     velocities = sweep(as_table(starts), duration=durations, tolerance=tolerance).mean_velocity
-    is_periodic = np.array([one.period > 0 for one in found], dtype=np.bool_)
+    is_periodic = np.array([attractor.period > 0 for attractor in found], dtype=np.bool_)
     periodic = as_table(starts[is_periodic])
     longer = sweep(periodic, duration=2.0 * durations[is_periodic], tolerance=tolerance).mean_velocity
     change = np.abs(longer - velocities[is_periodic])
     is_settled = change <= SETTLED * np.abs(longer) + NEGLIGIBLE * plate_peaks(periodic).vx
     velocities[is_periodic] = np.where(is_settled, velocities[is_periodic], np.nan)
     return [
-        one._replace(
-            strobes=one.strobes if one.period else state[None],
+        attractor._replace(
+            strobes=attractor.strobes if attractor.period else state[None],
             mean_velocity=float(velocity),
             share=float(np.mean(numbers == k)),
         )
-        for k, (one, state, velocity) in enumerate(zip(found, states, velocities, strict=True))
+        for k, (attractor, state, velocity) in enumerate(zip(found, states, velocities, strict=True))
     ]
 
 

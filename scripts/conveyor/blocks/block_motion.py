@@ -232,17 +232,17 @@ def largest_tilt(state, after, lapse):
 
 
 @compiled_inline
-def blocks_to_skip(c, body, before, between, most, ahead):
+def blocks_to_skip(c, body, before, between, blocks_left, distance_left):
     """The number of blocks of cycles that a motion which repeats itself may leave out.
 
     before, between : states at the beginning and at the end of a block
-    most, ahead : blocks up to the end of the run; m, up to the end of the track
+    blocks_left, distance_left : blocks up to the end of the run; m, up to the end of the track
     """
     if not repeats(c, body, before, between):
         return 0.0
     advance = between[X] - before[X]
     # Up to one block before the end or the arrival.
-    return max(math.floor(min(most, ahead / advance if advance > 0.0 else math.inf) - 1.0), 0.0)
+    return max(math.floor(min(blocks_left, distance_left / advance if advance > 0.0 else math.inf) - 1.0), 0.0)
 
 
 @compiled_inline
@@ -312,8 +312,8 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
                     break
             else:
                 # A step ends where statistics begin, so that they include the force there.
-                given = theta, state, (since[i] if t < since[i] else end) - t, length, known
-                code, lapse, kind, corner, length, tried = press(c, body, *given, stages, after, between, now)
+                arguments = theta, state, (since[i] if t < since[i] else end) - t, length, known
+                code, lapse, kind, corner, length, tried = press(c, body, *arguments, stages, after, between, now)
                 result[STEPS] += tried
                 code = TOO_STIFF if result[STEPS] > cycles * MAX_STEPS else code
                 if code != OK:
@@ -341,8 +341,8 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
             if t + lapse > due:
                 move(c, flying, state, lapse, stages, after, due - t, between)
                 # Airtime repeats itself only where it counts during the whole block.
-                most = (end - due) / block if due - block >= since[i] else 0.0
-                skipped = blocks_to_skip(c, body, before, between, most, distance - furthest)
+                blocks_left = (end - due) / block if due - block >= since[i] else 0.0
+                skipped = blocks_to_skip(c, body, before, between, blocks_left, distance - furthest)
                 if skipped > 0.0:
                     advance = skipped * (between[X] - before[X])
                     result[AIRTIME] += skipped * (result[AIRTIME] - airtime)

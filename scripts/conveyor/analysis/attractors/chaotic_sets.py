@@ -29,13 +29,13 @@ def cover_by_boxes(strobes: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndar
 
 
 def find_chaotic_sets(
-    conveyors: np.ndarray, sampled: list[Trajectories], cycles: int, tolerance: float, *, most: int
+    conveyors: np.ndarray, sampled: list[Trajectories], cycles: int, tolerance: float, *, max_cycles: int
 ) -> list[ChaoticSets]:
     """The chaotic sets of conveyors, shape (n, 16), from motions that do not converge within twice `cycles`.
 
     A conveyor on which a trajectory becomes periodic late has no chaotic sets: chaos is a transient there, and every
     trajectory must be followed to its own end. Trajectories of one conveyor run one after the other, and trajectories
-    of several conveyors side by side. On each conveyor, no new trajectory begins after `most` cycles in all.
+    of several conveyors side by side. On each conveyor, no new trajectory begins after `max_cycles` in all.
     """
     candidates = [list(trajectories.states[trajectories.outcomes == NOT_CONVERGED]) for trajectories in sampled]
     chaotic_sets, spent = [NO_ATTRACTORS.chaotic] * len(conveyors), np.zeros(len(conveyors), dtype=np.int64)
@@ -46,7 +46,7 @@ def find_chaotic_sets(
         spent[rows] += motions.followed
         return motions
 
-    while rows := [k for k, states in enumerate(candidates) if states and spent[k] < most]:
+    while rows := [k for k, states in enumerate(candidates) if states and spent[k] < max_cycles]:
         rows = np.array(rows)
         states = np.array([candidates[k].pop(0) for k in rows])
         # A few cycles are enough to leave out motions that stay in a known set, or that do not stretch.

@@ -192,10 +192,10 @@ def follow_all_to_attractors(parameters, tolerance, max_cycles, attractors, rows
             np.empty((LANES, 3, PAST)),
             np.empty((LANES, 4), np.int64),
         )
-        follow, most = compiled_for(harmonics), np.array([max_cycles])
+        follow, limit = compiled_for(harmonics), np.array([max_cycles])
 
         def run():
-            follow(parameters, tolerance, Search(most, attractors, rows, strobes), ends, side_by_side, work)
+            follow(parameters, tolerance, Search(limit, attractors, rows, strobes), ends, side_by_side, work)
 
-        call_interruptibly(run, lambda: most.fill(0), is_long=len(parameters) * max_cycles > LONG)
+        call_interruptibly(run, lambda: limit.fill(0), is_long=len(parameters) * max_cycles > LONG)
     return ends

@@ -44,12 +44,20 @@ class Attractors(NamedTuple):
     @property
     def columns(self) -> Columns:
         """Columns of the shape (n,): state, period, share, mean_velocity (m/s), multiplier (modulus), delta, v."""
-        found = {name: np.array([getattr(one, name) for one in self.found]) for name in ("period", "share")}
-        moduli = [abs(one.orbit.multipliers[0]) if one.orbit else np.nan for one in self.found]
-        delta, v = np.array([one.strobes[0] for one in self.found]).reshape(-1, 2).T
-        found |= {"mean_velocity": np.array([one.mean_velocity for one in self.found]), "multiplier": np.array(moduli)}
+        found = {name: np.array([getattr(attractor, name) for attractor in self.found]) for name in ("period", "share")}
+        moduli = [abs(attractor.orbit.multipliers[0]) if attractor.orbit else np.nan for attractor in self.found]
+        delta, v = np.array([attractor.strobes[0] for attractor in self.found]).reshape(-1, 2).T
+        found |= {
+            "mean_velocity": np.array([attractor.mean_velocity for attractor in self.found]),
+            "multiplier": np.array(moduli),
+        }
         return Columns(
-            {"state": np.array([one.state for one in self.found], dtype=object), **found, "delta": delta, "v": v}
+            {
+                "state": np.array([attractor.state for attractor in self.found], dtype=object),
+                **found,
+                "delta": delta,
+                "v": v,
+            }
         )
 
     def __repr__(self) -> str:
@@ -66,8 +74,8 @@ def orbit_attractor(row: np.ndarray, label: str, period: int, state: np.ndarray)
     orbit = orbit_near(row, state, period)
     if orbit is not None and orbit.stable:
         _, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, np.array(state), period)
-        ahead = 2.0 * distance(row, strobes[-1], np.array(state)) / (1.0 - abs(orbit.multipliers[0]))
-        orbit = orbit if distance(row, orbit.state, state) < max(CLOSE, ahead) else None
+        remaining = 2.0 * distance(row, strobes[-1], np.array(state)) / (1.0 - abs(orbit.multipliers[0]))
+        orbit = orbit if distance(row, orbit.state, state) < max(CLOSE, remaining) else None
     else:
         orbit = None
     start = np.array(state if orbit is None else orbit.state)
@@ -90,11 +98,11 @@ def identify(attractors: Attractors, labels: Columns) -> np.ndarray:
             inside = (k for k in range(len(table.chaotic.low)) if is_in_chaotic_set(state, table.chaotic, k, k + 1))
             number = orbits + next(inside, UNKNOWN - orbits)
         # All motions without a known chaotic set, or without a label, count as one attractor.
-        for k, one in enumerate(attractors.found if number == UNKNOWN else ()):
+        for k, attractor in enumerate(attractors.found if number == UNKNOWN else ()):
             if (
-                one.state == label
-                and one.period == period
-                and (not period or distance(row, state, one.strobes) < CLOSE)
+                attractor.state == label
+                and attractor.period == period
+                and (not period or distance(row, state, attractor.strobes) < CLOSE)
             ):
                 number = k
         numbers[place] = number

@@ -88,17 +88,19 @@ def classify(
     parameters, shape = check_rows(parameters)
     if not isinstance(attractors, Attractors):
         check_type("attractors", attractors, AttractorTable)
-    elif not all(np.array_equal(one, attractors.conveyor) for one in distinct_rows(parameters)[0]):
+    elif not all(np.array_equal(row, attractors.conveyor) for row in distinct_rows(parameters)[0]):
         raise ValueError("attractors are those of another conveyor; give an AttractorTable for several")
     table = attractors.table if isinstance(attractors, Attractors) else attractors
     exponents, n = check_flag("exponents", exponents), len(parameters)
     if other_tolerance is not None:
-        both = tolerance, check_tolerance(other_tolerance, "other_tolerance")
-        given = {"cycles": cycles, "attractors": attractors, "exponents": exponents, "threads": threads}
+        tolerances = tolerance, check_tolerance(other_tolerance, "other_tolerance")
+        options = {"cycles": cycles, "attractors": attractors, "exponents": exponents, "threads": threads}
         with progress_bar(total=2 * n, label=progress) as shown:
             rows = as_table(parameters).reshape(shape)
-            found, again = (classify(rows, **given, tolerance=one, progress=shown) for one in both)
-        return Columns({**found, "confirmed": (again.state == found.state) & (again.period == found.period)})
+            labelled, again = (
+                classify(rows, **options, tolerance=tolerance, progress=shown) for tolerance in tolerances
+            )
+        return Columns({**labelled, "confirmed": (again.state == labelled.state) & (again.period == labelled.period)})
     trajectories, table_rows = new_trajectories(n), table.rows_of(parameters)
     # Trajectories in chaos take a hundred times as long as others. In a mixed order, all ranges take about as long as
     # the ones before, so that the progress bar moves evenly.
@@ -127,7 +129,7 @@ def classify(
     delta, v = trajectories.states.T
     labels = {"state": np.array(STATES, dtype=object)[codes], "period": trajectories.periods, "longest_flight": flights}
     labels |= {"cycles": trajectories.followed, "delta": delta, "v": v}
-    found = Columns({name: column.reshape(shape) for name, column in labels.items()})
+    labelled = Columns({name: column.reshape(shape) for name, column in labels.items()})
     if isinstance(attractors, Attractors):
-        found = Columns({**found, "attractor": identify(attractors, found)})
-    return found
+        labelled = Columns({**labelled, "attractor": identify(attractors, labelled)})
+    return labelled

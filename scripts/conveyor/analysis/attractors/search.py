@@ -60,11 +60,11 @@ def find_attractors(
     def work(begin, end):
         some = conveyors[begin:end]
         sampled = sampling.sample_conveyors(some, min(sampling.SHORT_SEARCH, cycles), tolerance)
-        chaotic = find_chaotic_sets(some, sampled, cycles, tolerance, most=SEARCHES * cycles)
+        chaotic = find_chaotic_sets(some, sampled, cycles, tolerance, max_cycles=SEARCHES * cycles)
         for k, (row, of_row, sets) in enumerate(zip(some, sampled, chaotic, strict=True), start=begin):
             known = NO_ATTRACTORS.orbits
             if orbits:
-                known = find_attracting_orbits(row, of_row, sets, cycles, tolerance, most=SEARCHES * cycles)
+                known = find_attracting_orbits(row, of_row, sets, cycles, tolerance, max_cycles=SEARCHES * cycles)
             attractors[k] = AttractorTable(known, sets)
 
     for_each_chunk(work, len(conveyors), threads=threads, chunk=TOGETHER, progress=progress)

@@ -166,9 +166,9 @@ def refine_orbit(
 
 
 def find_trapping_region(
-    parameters: np.ndarray, tolerance: float, state: np.ndarray, period: int, *, most: int
+    parameters: np.ndarray, tolerance: float, state: np.ndarray, period: int, *, max_cycles: int
 ) -> tuple[tuple[np.ndarray, np.ndarray] | None, int]:
-    """The largest trapping region around a point of an orbit that a search of about `most` excitation cycles shows.
+    """The largest trapping region around a point of an orbit that a search of about `max_cycles` cycles shows.
 
     parameters : float64, shape (16,), with the phase pieces.BEGIN_OF_CYCLE
     state : δ (m), v (m/s), shape (2,), at pieces.BEGIN_OF_CYCLE
@@ -197,8 +197,8 @@ def find_trapping_region(
         return None, 0
     factor = (norm / unit)[np.triu_indices(2)]
     radius, growth, spent, harmonics = 0.5 * SMALLEST, 2.0, 0, plate.count_harmonics(parameters)
-    while growth * radius <= LARGEST and spent < most:
-        if growth <= (FINE_GROWTH if spent < FINE_SHARE * most else LEAST_GROWTH):
+    while growth * radius <= LARGEST and spent < max_cycles:
+        if growth <= (FINE_GROWTH if spent < FINE_SHARE * max_cycles else LEAST_GROWTH):
             break
         radii = growth * radius, radius
         search = partial(comes_inside, parameters, tolerance, harmonics, centre, factor, period, *radii, periods)
@@ -244,7 +244,13 @@ def add_without_region(
 
 
 def find_attracting_orbits(
-    parameters: np.ndarray, sampled: Trajectories, chaotic: ChaoticSets, cycles: int, tolerance: float, *, most: int
+    parameters: np.ndarray,
+    sampled: Trajectories,
+    chaotic: ChaoticSets,
+    cycles: int,
+    tolerance: float,
+    *,
+    max_cycles: int,
 ) -> AttractingOrbits:
     """The attracting orbits of a conveyor, shape (16,), that trajectories reach.
 
@@ -256,27 +262,27 @@ def find_attracting_orbits(
     sampled : trajectories on the conveyor; those that have not converged and do not stay in a chaotic set are followed
         further, for at most `cycles`, one after the other, so that each slow orbit is approached only once
     chaotic : the known chaotic sets of the conveyor
-    most : excitation cycles in all, after which no further orbit is searched for
+    max_cycles : excitation cycles in all, after which no further orbit is searched for
     """
     at_top, constants = stroboscopic_map.begin_at_top(parameters), contact.constants(parameters, tolerance)
-    seen, orbits, left, without_region = np.empty((0, 2)), NO_ATTRACTORS.orbits, most, []
+    seen, orbits, cycles_left, without_region = np.empty((0, 2)), NO_ATTRACTORS.orbits, max_cycles, []
 
     def add(state: np.ndarray, period: int, flight: float) -> None:
-        nonlocal seen, orbits, left
+        nonlocal seen, orbits, cycles_left
         if distance(parameters, state, seen) < SMALLEST:
             return
-        around = None
-        if left > 0 and period <= LONGEST:
+        region = None
+        if cycles_left > 0 and period <= LONGEST:
             status, strobes, _ = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
             if status != OK:
                 return
             seen = np.concatenate([seen, strobes])
-            around, spent = find_trapping_region(at_top, tolerance, state, period, most=left)
-            left -= spent
-        if around is None:
+            region, used = find_trapping_region(at_top, tolerance, state, period, max_cycles=cycles_left)
+            cycles_left -= used
+        if region is None:
             without_region.append((state, period, flight))
         else:
-            orbits = append_row(orbits, parameters, *around, period, flight)
+            orbits = append_row(orbits, parameters, *region, period, flight)
 
     for k in np.flatnonzero(sampled.outcomes == PERIODIC):
         add(sampled.states[k], int(sampled.periods[k]), sampled.flights[k])
@@ -284,12 +290,12 @@ def find_attracting_orbits(
     # Side by side, because most of them stay in a chaotic set.
     rows = np.repeat(parameters[None], len(states), axis=0)
     early = sampling.follow(rows, states, min(2 * STAY, cycles), tolerance, AttractorTable(orbits, chaotic))
-    left -= int(early.followed.sum())
+    cycles_left -= int(early.followed.sum())
     for state in states[early.outcomes != IN_CHAOTIC_SET]:
-        if left <= 0:
+        if cycles_left <= 0:
             break
         late = sampling.follow(parameters[None], state[None], cycles, tolerance, AttractorTable(orbits, chaotic))
-        left -= int(late.followed[0])
+        cycles_left -= int(late.followed[0])
         if late.outcomes[0] == NOT_CONVERGED:
             break
         is_new = convergence.find_reached_orbit(constants, late.states[0], orbits, 0, len(orbits.periods)) < 0

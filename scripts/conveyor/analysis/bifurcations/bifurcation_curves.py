@@ -195,7 +195,7 @@ def follow_bifurcation_curve(
     reach: tuple[float, float],
     *,
     longest_step: float,
-    most: int,
+    max_points: int,
     progress: str | None = None,
 ) -> BifurcationCurve:
     """Follow the curve of a bifurcation in both directions.
@@ -207,14 +207,14 @@ def follow_bifurcation_curve(
     amplitude : lowest and highest Γ
     reach : lowest and highest λ
     longest_step : largest arclength of a step, in (x, y, log Γ, λ)
-    most : points in one direction after which the curve ends with "length"
+    max_points : in one direction after which the curve ends with "length"
     progress : as in `continue_bifurcation`
 
     Examples
     --------
     >>> fold = find_bifurcation("fold", 1, np.array([-3.41, 1.61, 0.508]), groups_of(parameter_table(Conveyor())))
     >>> path = ParameterPath(damping=1.0, stiffness=0.0)
-    >>> curve = follow_bifurcation_curve(fold, path, (0.1, 5.0), (-0.5, 0.5), longest_step=0.1, most=100)
+    >>> curve = follow_bifurcation_curve(fold, path, (0.1, 5.0), (-0.5, 0.5), longest_step=0.1, max_points=100)
     >>> curve.ends, round(curve.points[0].groups.amplitude, 2)  # Γ at the least damping
     (('limit', 'limit'), 0.29)
     """
@@ -223,18 +223,18 @@ def follow_bifurcation_curve(
     limits = (*np.log(amplitude), *reach)
     upwards, before = np.array([0.0, 0.0, 0.0, 1.0]), []
     with progress_bar(label=progress, unit="points") as shown:
-        onwards, last = _side(equations, begin, upwards, limits, longest_step, most, shown)
+        after, last = _side(equations, begin, upwards, limits, longest_step, max_points, shown)
         first = last
         if last != "closed":
-            before, first = _side(equations, begin, -upwards, limits, longest_step, most, shown)
-    unknowns = [*before[:0:-1], *onwards]
+            before, first = _side(equations, begin, -upwards, limits, longest_step, max_points, shown)
+    unknowns = [*before[:0:-1], *after]
     points = [equations.point(unknown) for unknown in unknowns]
     forms, rights = [], [np.array([1.0, 0.0])]
-    for one in points:
-        form, right = normal_form(one, rights[-1])
+    for point in points:
+        form, right = normal_form(point, rights[-1])
         forms.append(form)
         rights.append(right)
-    impacts = [linearise(one.groups, one.unknown[:2], one.period).impacts for one in points]
+    impacts = [linearise(point.groups, point.unknown[:2], point.period).impacts for point in points]
     meetings = list(_meetings(equations, unknowns, forms, rights[1:], impacts, (first, last)))
     log_ratios = np.array([unknown[3] for unknown in unknowns])
     return BifurcationCurve(points, log_ratios, np.array(forms), meetings, (first, last))
@@ -272,20 +272,20 @@ def follow_grazing_curve(
     path_points, ends, equations = [(point, 0.0)], [], CurveEquations(point, path)
     with progress_bar(label=progress, unit="points") as shown:
         for direction, end in ((-1.0, reach[0]), (1.0, reach[1])):
-            here, log_ratio, reason = point, 0.0, "limit"
-            while abs(log_ratio) < abs(end) and amplitude[0] <= here.groups.amplitude <= amplitude[1]:
+            current, log_ratio, reason = point, 0.0, "limit"
+            while abs(log_ratio) < abs(end) and amplitude[0] <= current.groups.amplitude <= amplitude[1]:
                 log_ratio = direction * min(abs(log_ratio) + step, abs(end))
-                groups = equations.groups(np.append(np.zeros(2), [np.log(here.groups.amplitude), log_ratio]))
-                there = find_bifurcation(GRAZING, point.period, here.unknown, groups)
-                if there is None or np.abs(there.unknown - here.unknown).max() > 3.0 * step:
+                groups = equations.groups(np.append(np.zeros(2), [np.log(current.groups.amplitude), log_ratio]))
+                next_grazing = find_bifurcation(GRAZING, point.period, current.unknown, groups)
+                if next_grazing is None or np.abs(next_grazing.unknown - current.unknown).max() > 3.0 * step:
                     reason = "lost"
                     break
-                here = there
-                path_points.append((here, log_ratio))
+                current = next_grazing
+                path_points.append((current, log_ratio))
                 shown.update()
             ends.append(reason)
-    path_points.sort(key=lambda one: one[1])
-    points, log_ratios = [one for one, _ in path_points], np.array([log_ratio for _, log_ratio in path_points])
+    path_points.sort(key=lambda grazing: grazing[1])
+    points, log_ratios = [grazing for grazing, _ in path_points], np.array([log_ratio for _, log_ratio in path_points])
     return BifurcationCurve(points, log_ratios, np.full(len(points), np.nan), [], tuple(ends))
 
 
@@ -331,33 +331,36 @@ def continue_bifurcation(
     scale = np.sin if parameter == "angle" else np.asarray
     back = np.arcsin if parameter == "angle" else np.asarray
     begin, *reach = np.log(scale([row[parameter].item(), *ends])).tolist()
-    around = (point.groups.amplitude / FACTOR, point.groups.amplitude * FACTOR), tuple(end - begin for end in reach)
+    amplitude = point.groups.amplitude / FACTOR, point.groups.amplitude * FACTOR
+    low, high = (end - begin for end in reach)
     path = PATHS[parameter](point.groups.exponent)
     if kind == GRAZING:
-        curve = follow_grazing_curve(point, path, *around, step=0.5 * LONGEST_STEP, progress=progress)
+        curve = follow_grazing_curve(point, path, amplitude, (low, high), step=0.5 * LONGEST_STEP, progress=progress)
     else:
-        longest = {"longest_step": LONGEST_STEP, "most": MOST_POINTS}
-        curve = follow_bifurcation_curve(point, path, *around, **longest, progress=progress)
-    points = [(kind, one, part, form, "ok") for one, part, form in zip(*curve[:3], strict=True)]
+        longest = {"longest_step": LONGEST_STEP, "max_points": MOST_POINTS}
+        curve = follow_bifurcation_curve(point, path, amplitude, (low, high), **longest, progress=progress)
+    points = [(kind, found, part, form, "ok") for found, part, form in zip(*curve[:3], strict=True)]
     for end, next_to_end in ((0, 1), (-1, -2)) if len(points) > 1 else ():
-        last = _at_limit(points[end], points[next_to_end], path, around[1])
+        last = _at_limit(points[end], points[next_to_end], path, (low, high))
         points[end] = (*last[:-1], curve.ends[end])
-    rows = points + [(one.kind, one.point, one.log_ratio, np.nan, one.status) for one in curve.meetings]
+    rows = points + [(found.kind, found.point, found.log_ratio, np.nan, found.status) for found in curve.meetings]
     kinds, points, parts, forms, status = zip(*rows, strict=True)
     values = back(np.exp(begin + np.array(parts)))
     conveyors = [replace_parameters(row, **{parameter: value}) for value in values.tolist()]
     states = [
-        stroboscopic_map.state_of(one.groups, one.unknown[:2]) * length_and_speed_units(here)
-        if len(one.unknown) == 3
+        stroboscopic_map.state_of(found.groups, found.unknown[:2]) * length_and_speed_units(conveyor)
+        if len(found.unknown) == 3
         else [np.nan] * 2
-        for one, here in zip(points, conveyors, strict=True)
+        for found, conveyor in zip(points, conveyors, strict=True)
     ]
     delta, v = np.array(states).T
-    amplitudes = [amplitude_of(here, one.groups.amplitude) for one, here in zip(points, conveyors, strict=True)]
+    amplitudes = [
+        amplitude_of(conveyor, found.groups.amplitude) for found, conveyor in zip(points, conveyors, strict=True)
+    ]
     columns = {"kind": np.array(kinds, dtype=object), "period": np.full(len(points), period)}
     columns |= {"acceleration": np.array(amplitudes), parameter: values, "delta": delta, "v": v}
     columns |= {"normal_form": np.array(forms), "status": np.array(status, dtype=object)}
-    inside = (np.array(parts) >= around[1][0]) & (np.array(parts) <= around[1][1])
+    inside = (np.array(parts) >= low) & (np.array(parts) <= high)
     return Columns(columns).select(inside)
 
 
@@ -379,22 +382,22 @@ def _at_limit(last, before, path, reach):
     return kind, found, limit, form, "ok"
 
 
-def _side(equations, begin, direction, limits, longest_step, most, shown):
+def _side(equations, begin, direction, limits, longest_step, max_points, shown):
     """The unknowns along one direction of a curve, and the reason why it ends."""
     unknowns = [begin]
     lengths = {"first": min(FIRST_STEP, longest_step), "smallest": SMALLEST_STEP, "largest": longest_step}
     steps = follow_curve(equations.correct, equations.tangent, begin, direction, **lengths, straight=STRAIGHT)
-    for here, there, _, onwards, length in steps:
-        if equations.period % 2 == 0 and linear_algebra.dot(equations.halving(here), equations.halving(there)) < 0.0:
+    for first, last, _, next_tangent, length in steps:
+        if equations.period % 2 == 0 and linear_algebra.dot(equations.halving(first), equations.halving(last)) < 0.0:
             return unknowns, "period halving"
-        unknowns.append(there)
+        unknowns.append(last)
         shown.update()
-        if not (limits[0] <= there[2] <= limits[1] and limits[2] <= there[3] <= limits[3]):
+        if not (limits[0] <= last[2] <= limits[1] and limits[2] <= last[3] <= limits[3]):
             return unknowns, "limit"
-        is_near = len(unknowns) > 3 and linear_algebra.length(there - begin) < length
-        if is_near and linear_algebra.dot(onwards, begin - there) > 0.0:
+        is_near = len(unknowns) > 3 and linear_algebra.length(last - begin) < length
+        if is_near and linear_algebra.dot(next_tangent, begin - last) > 0.0:
             return [*unknowns, begin], "closed"
-        if len(unknowns) > most:
+        if len(unknowns) > max_points:
             return unknowns, "length"
     return unknowns, "lost" if equations.tangent(begin, direction) is None else "step"
 

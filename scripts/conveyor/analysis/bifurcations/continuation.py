@@ -137,23 +137,23 @@ def follow_branch(orbit: Orbit, parameter: str, limits: tuple[float, float], *, 
 def _follow(orbit, parameter, limits, direction, shown):
     """Orbits and bifurcations in the order in which they are met, the reason of the end, and the orbit's parent."""
     returns = ReturnMap(orbit.parameters, orbit.period, parameter)
-    here = returns.unknown(orbit)
-    beginning = returns.strobes(here)
+    begin = returns.unknown(orbit)
+    beginning = returns.strobes(begin)
     orbits, bifurcations = [orbit], []
     lengths = {"first": FIRST_STEP, "smallest": SMALLEST_STEP, "largest": LARGEST_STEP}
-    steps = follow_curve(returns.correct, returns.tangent, here, direction, **lengths, straight=STRAIGHT)
-    for here, there, tangent, _, length in steps:
-        if orbit.period % 2 == 0 and linear_algebra.dot(returns.halving(here), returns.halving(there)) < 0.0:
+    steps = follow_curve(returns.correct, returns.tangent, begin, direction, **lengths, straight=STRAIGHT)
+    for begin, end, tangent, _, length in steps:
+        if orbit.period % 2 == 0 and linear_algebra.dot(returns.halving(begin), returns.halving(end)) < 0.0:
             half = ReturnMap(orbit.parameters, orbit.period // 2, parameter)
-            unknown = half.newton(0.5 * (here + there))
+            unknown = half.newton(0.5 * (begin + end))
             return orbits, bifurcations, "period halving", None if unknown is None else half.describe(unknown)
-        orbits.append(returns.describe(there))
+        orbits.append(returns.describe(end))
         bifurcations += bifurcations_between(returns, *orbits[-2:])
         shown.update()
         if not limits[0] <= orbits[-1].value(parameter) <= limits[1]:
             return orbits, bifurcations, "limit", None
-        advance = linear_algebra.dot(beginning - here, tangent)
-        aside = linear_algebra.length(beginning - here - advance[:, None] * tangent)
+        advance = linear_algebra.dot(beginning - begin, tangent)
+        aside = linear_algebra.length(beginning - begin - advance[:, None] * tangent)
         if len(orbits) > 3 and ((advance > 0.0) & (advance <= length) & (aside < 0.1 * length)).any():
             return orbits, bifurcations, "closed", None
         if len(orbits) == MAX_ORBITS:

@@ -61,21 +61,21 @@ def next_doubling(first: Bifurcation, second: Bifurcation) -> Bifurcation | None
     before = settled_orbit(at(last.acceleration + 0.5 * gap), last.state, (period,), 30 * period)
     if before is None:
         return None
-    here = orbit_near(at(last.acceleration + 0.6 * gap), before.state, period)
+    orbit = orbit_near(at(last.acceleration + 0.6 * gap), before.state, period)
     for _ in range(SECANT_STEPS):
-        if here is None or abs(multiplier_test(here, -1.0)) <= RESOLVED:
+        if orbit is None or abs(multiplier_test(orbit, -1.0)) <= RESOLVED:
             break
         # A secant step in â, from which Newton's iteration starts on the secant of the states.
-        value = multiplier_test(here, -1.0)
+        value = multiplier_test(orbit, -1.0)
         part = value / (multiplier_test(before, -1.0) - value)
-        acceleration = here.acceleration + part * (here.acceleration - before.acceleration)
-        state = here.state + part * (here.state - before.state)
-        before, here = here, orbit_near(at(acceleration), state, period)
+        acceleration = orbit.acceleration + part * (orbit.acceleration - before.acceleration)
+        state = orbit.state + part * (orbit.state - before.state)
+        before, orbit = orbit, orbit_near(at(acceleration), state, period)
         if abs(acceleration - last.acceleration - gap) > 0.5 * abs(gap) or acceleration == before.acceleration:
             return None
-    if here is None or abs(multiplier_test(here, -1.0)) > RESOLVED:
+    if orbit is None or abs(multiplier_test(orbit, -1.0)) > RESOLVED:
         return None
-    return Bifurcation("period_doubling", here, min(value.real for value in here.multipliers), "acceleration")
+    return Bifurcation("period_doubling", orbit, min(value.real for value in orbit.multipliers), "acceleration")
 
 
 def doubling_ratios(amplitudes: ArrayLike) -> np.ndarray:

@@ -12,19 +12,19 @@ LONGER = 1.2
 GROWTH = 1.3  # of the step after a success
 
 
-def difference_quotients(functions: Callable[[np.ndarray], np.ndarray], here: np.ndarray, step: float) -> np.ndarray:
+def difference_quotients(functions: Callable[[np.ndarray], np.ndarray], point: np.ndarray, step: float) -> np.ndarray:
     """Derivatives of k functions by n unknowns, by central differences of a step, shape (k, n).
 
     Their error slows Newton's iteration a little; the zero that it converges to stays the same.
     """
 
     def quotient(place):
-        ahead, behind = here.copy(), here.copy()
-        ahead[place] += step
-        behind[place] -= step
-        return (functions(ahead) - functions(behind)) / (ahead[place] - behind[place])
+        forward, backward = point.copy(), point.copy()
+        forward[place] += step
+        backward[place] -= step
+        return (functions(forward) - functions(backward)) / (forward[place] - backward[place])
 
-    return np.column_stack([quotient(place) for place in range(len(here))])
+    return np.column_stack([quotient(place) for place in range(len(point))])
 
 
 def newton(
@@ -49,30 +49,30 @@ def newton(
     largest, farthest : the component of a step, and the distance from the guess, at which the search gives up
     stagnant : a step below this that no longer shrinks is rounding, and ends the search
     """
-    here, size = np.array(guess, dtype=np.float64), math.inf
+    point, size = np.array(guess, dtype=np.float64), math.inf
     for _ in range(iterations):
-        evaluated = system(here)
+        evaluated = system(point)
         if evaluated is None:
             return None
         value, slope = evaluated
         if direction is not None:
-            value, slope = np.append(value, dot(direction, here - guess)), np.vstack([slope, direction])
+            value, slope = np.append(value, dot(direction, point - guess)), np.vstack([slope, direction])
         step = solve(slope, -value)
         if step is None:
             return None
-        here = here + step
+        point = point + step
         previous, size = size, np.abs(step).max()
-        if not (size < largest and length(here - guess) < farthest):
+        if not (size < largest and length(point - guess) < farthest):
             return None
         if size < converged or (previous < stagnant and size > 0.1 * previous):
-            return here
+            return point
     return None
 
 
 def follow_curve(
     correct: Callable[[np.ndarray, np.ndarray], np.ndarray | None],
     tangent_at: Callable[[np.ndarray, np.ndarray], np.ndarray | None],
-    here: np.ndarray,
+    point: np.ndarray,
     direction: np.ndarray,
     *,
     first: float,
@@ -91,15 +91,19 @@ def follow_curve(
     first, smallest, largest : arclengths of steps
     straight : cosine of the largest turn within a step
     """
-    tangent, step = tangent_at(here, direction), first
+    tangent, step = tangent_at(point, direction), first
     while tangent is not None:
-        there = correct(here + step * tangent, tangent)
-        following = None if there is None else tangent_at(there, tangent)
-        if following is None or not dot(following, tangent) > straight or length(there - here) > LONGER * step:
+        next_point = correct(point + step * tangent, tangent)
+        next_tangent = None if next_point is None else tangent_at(next_point, tangent)
+        if (
+            next_tangent is None
+            or not dot(next_tangent, tangent) > straight
+            or length(next_point - point) > LONGER * step
+        ):
             step *= 0.5
             if step < smallest:
                 return
             continue
-        yield here, there, tangent, following, step
-        here, tangent = there, following
+        yield point, next_point, tangent, next_tangent, step
+        point, tangent = next_point, next_tangent
         step = min(GROWTH * step, largest)

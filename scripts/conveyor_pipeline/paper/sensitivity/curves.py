@@ -94,7 +94,7 @@ def follow_curve(parameters: np.ndarray, point: BifurcationPoint, parameter: str
     limits = LIMITS, (-reach, reach)
     if point.kind == GRAZING:
         return follow_grazing_curve(point, path, *limits, step=0.5 * STEP)
-    return follow_bifurcation_curve(point, path, *limits, longest_step=STEP, most=POINTS)
+    return follow_bifurcation_curve(point, path, *limits, longest_step=STEP, max_points=POINTS)
 
 
 def curve_rows(

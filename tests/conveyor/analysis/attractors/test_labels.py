@@ -171,7 +171,7 @@ def test_settling_in_the_second_half_counts_as_late(monkeypatch, settles_after):
 
     probed = sampling.sample_conveyors(row, sampling.SHORT_SEARCH, 1e-8)
     monkeypatch.setattr(sampling, "follow", interrupted)
-    (found,) = chaotic_sets.find_chaotic_sets(row, probed, cycles, 1e-8, most=10**6)
+    (found,) = chaotic_sets.find_chaotic_sets(row, probed, cycles, 1e-8, max_cycles=10**6)
     assert (len(found.low) == 0 and len(halves) == 2) if settles_after else len(found.low) > 0
 
 

@@ -63,12 +63,16 @@ def test_a_curve_far_outside_does_not_enter():
     row[PSI0] = BEGIN_OF_CYCLE
     (motions,) = sampling.sample_conveyors(row[None], 400, TOLERANCE)
     k = int(np.argmax(motions.flights))
-    (centre, factor), spent = trapping_regions.find_trapping_region(row, TOLERANCE, motions.states[k], 1, most=10**6)
+    (centre, factor), spent = trapping_regions.find_trapping_region(
+        row, TOLERANCE, motions.states[k], 1, max_cycles=10**6
+    )
     options = trapping_regions.PERIODS, np.zeros(1, dtype=np.bool_)
     assert trapping_regions.comes_inside(row, TOLERANCE, None, centre, factor, 1, 1.0, 0.9, *options)[0]
     assert not trapping_regions.comes_inside(row, TOLERANCE, None, centre, factor, 1, 4.0, 1.0, *options)[0]
     # Fewer cycles show only a smaller region.
-    (_, smaller), less = trapping_regions.find_trapping_region(row, TOLERANCE, motions.states[k], 1, most=spent // 4)
+    (_, smaller), less = trapping_regions.find_trapping_region(
+        row, TOLERANCE, motions.states[k], 1, max_cycles=spent // 4
+    )
     assert less < spent and smaller[0] > factor[0]
 
 
@@ -77,7 +81,7 @@ def test_an_orbit_that_does_not_attract_has_no_neighbourhood():
     row = conveyor_of(0.0, damping=0.0, exponent=1.0, stiffness=3e3)
     row[PSI0] = BEGIN_OF_CYCLE
     state = np.array([1.5 * 0.7e-3 * 9.81 / 3e3, 0.0])
-    assert trapping_regions.find_trapping_region(row, TOLERANCE, state, 1, most=10**6)[0] is None
+    assert trapping_regions.find_trapping_region(row, TOLERANCE, state, 1, max_cycles=10**6)[0] is None
 
 
 @pytest.mark.parametrize(

@@ -20,7 +20,7 @@ from conveyor.solver.model import pack
 
 GROUPS = groups_of(pack(Conveyor(), Start()))
 FOLD, DOUBLING = (-3.41, 1.614, 0.50815), (-6.257, 0.5009, 1.1491)
-LIMITS = {"amplitude": (0.1, 5.0), "longest_step": 0.1, "most": 400}
+LIMITS = {"amplitude": (0.1, 5.0), "longest_step": 0.1, "max_points": 400}
 ALONG = np.array([1.0, 0.0])
 
 
@@ -106,11 +106,11 @@ def test_lift_off_of_a_linear_contact_over_damping_and_stiffness():
 def test_a_curve_says_why_it_ends():
     point = find_bifurcation("fold", 1, FOLD, GROUPS)
     short = follow_bifurcation_curve(
-        point, ParameterPath(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.1, 5.0), longest_step=0.02, most=10
+        point, ParameterPath(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.1, 5.0), longest_step=0.02, max_points=10
     )
     assert short.ends == ("length", "length")
     low = follow_bifurcation_curve(
-        point, ParameterPath(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.4, 0.6), longest_step=0.1, most=100
+        point, ParameterPath(1.0, 0.0), reach=(-3.0, 3.0), amplitude=(0.4, 0.6), longest_step=0.1, max_points=100
     )
     assert low.ends == ("limit", "limit")
     assert 0.3 < low.points[0].groups.amplitude <= 0.4
