@@ -182,7 +182,7 @@ def find_header(lines: Sequence[tuple[int, str]], separator: str, is_known: Call
         known = len({field.lower() for field in fields if is_known(field)})
         is_comment = line.startswith("#")
         # Settings before the header may hold several lines of numbers.
-        if place > first and (known < 2 or any(one[1] > 1 for one in candidates)):
+        if place > first and (known < 2 or any(candidate[1] > 1 for candidate in candidates)):
             continue
         if known or (place < first and len(fields) > 1 and not is_comment and not values_in(line, separator)):
             candidates.append(((known > 0) + (known > 0 and not is_comment), known, place))
@@ -219,7 +219,8 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
             if not any(map(is_known, names)):
                 remedy = f"a line above the values, separated like them, must name the columns, such as {example}"
                 raise TableError([f"{path}:{header}: begins without names; {remedy}"])
-            place, units_of = -1, [""] * len(names)
+            place = -1
+            units_of = [""] * len(names)
         else:
             header, line = content[place]
             line = line.lstrip("# ")
@@ -227,22 +228,23 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
             line = re.sub(r"(?<=\w) +(?=[(\[])", "", line) if separator == " " else line
             named = [name_and_unit(field, units) for field in split(line, separator)]
             names, units_of = map(list, zip(*named, strict=True))
-        beside = [content[at] for at in (place - 1, place + 1) if 0 <= at < len(content)] if place >= 0 else []
+        beside = [content[near] for near in (place - 1, place + 1) if 0 <= near < len(content)] if place >= 0 else []
         stating = []
         for numbered in beside:
             stated = split(numbered[1].lstrip("# "), separator)
             if len(stated) > 1 and is_unit_line(stated, units):
                 stating.append(numbered)
                 padded = [*stated, *[""] * len(names)]
-                units_of = [UNIT.sub(r"\1", one) or own for one, own in zip(padded, units_of, strict=False)]
-        following = [one for one in content[place + 1 :] if one not in stating]
+                units_of = [UNIT.sub(r"\1", field) or unit for field, unit in zip(padded, units_of, strict=False)]
+        following = [numbered for numbered in content[place + 1 :] if numbered not in stating]
         rows = [(number, line) for number, line in following if not line.lstrip('"').startswith("#")]
         widths = np.array([widths_of(line, separator) for _, line in rows], dtype=np.int64)
     except csv.Error as error:
         raise TableError([f"{path}: is not CSV ({error}); export the table as CSV"]) from error
     while names and not names[-1]:  # a separator at the end of the line
         names, units_of = names[:-1], units_of[:-1]
-    lines, faults = np.array([number for number, _ in rows], dtype=np.int64), []
+    lines = np.array([number for number, _ in rows], dtype=np.int64)
+    faults = []
     for row in np.flatnonzero(widths != len(names)):
         ends_empty = widths[row] > len(names) and not any(split(rows[row][1], separator)[len(names) :])
         if not ends_empty and len(faults) < MOST_FAULTS:
@@ -262,14 +264,15 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
             **options,
         )
     except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        fields, reason = None, str(error)
+        fields = None
+        reason = str(error)
     if rows and (fields is None or len(fields) != len(rows)):
         reason = reason if fields is None else "a quote is not closed"
         raise TableError([f"{path}:{lines[-1]}: is not CSV ({reason}); export the table as CSV"])
     fields = pd.DataFrame(columns=columns, dtype=str) if fields is None else fields
-    fields = fields[range(len(names))].apply(lambda one: one.str.strip())
+    fields = fields[range(len(names))].apply(lambda column: column.str.strip())
     try:
-        signs = number_signs([fields[one] for one in fields], separator)
+        signs = number_signs([fields[column] for column in fields], separator)
     except ValueError as error:
         number = str(error)
         readings = f"{number.replace(',', '')} or {number.replace(',', '.')}"
@@ -297,31 +300,31 @@ def number_signs(fields: Sequence[Any], separator: str) -> tuple[str, str]:
         a number that may have a decimal comma or thousands: each comma stands before three digits, and other numbers
         are short and have none. In a file with semicolons such a comma is decimal, unless its column has short numbers
     """
-    if not any(one.str.contains(r",|\..*\.").any() for one in fields):
+    if not any(texts.str.contains(r",|\..*\.").any() for texts in fields):
         return ".", ""  # as in most files, without a closer look at each number
-    fields = [one[one.str.fullmatch(NUMBER.pattern)] for one in fields]
-    commas = [one[one.str.contains(",", regex=False)] for one in fields]
-    points = sum(int(one.str.contains(".", regex=False).sum()) for one in fields)
+    fields = [texts[texts.str.fullmatch(NUMBER.pattern)] for texts in fields]
+    commas = [texts[texts.str.contains(",", regex=False)] for texts in fields]
+    points = sum(int(texts.str.contains(".", regex=False).sum()) for texts in fields)
     if not any(map(len, commas)):
-        twice = any(one.str.contains(r"\..*\.").any() for one in fields)
+        twice = any(texts.str.contains(r"\..*\.").any() for texts in fields)
         return (",", ".") if twice else (".", "")
-    for one in commas:
-        if (both := one[one.str.contains(".", regex=False)]).size:
+    for texts in commas:
+        if (both := texts[texts.str.contains(".", regex=False)]).size:
             is_point_last = both.str.rfind(".") > both.str.rfind(",")
             return (".", ",") if is_point_last.all() else (",", ".")
-    if any(one.str.contains(r",.*,").any() for one in commas):
+    if any(texts.str.contains(r",.*,").any() for texts in commas):
         return ".", ","
-    grouped = all(one.str.fullmatch(r"[-+]?[1-9]\d{0,2},\d{3}").all() for one in commas)
+    grouped = all(texts.str.fullmatch(r"[-+]?[1-9]\d{0,2},\d{3}").all() for texts in commas)
     if grouped and points:
         return ".", ","
     if grouped:
-        shorts = [one.str.fullmatch(r"[-+]?\d{1,3}").sum() for one in fields]
-        mixed = [(len(one), short) for one, short in zip(commas, shorts, strict=True) if len(one) and short]
+        shorts = [texts.str.fullmatch(r"[-+]?\d{1,3}").sum() for texts in fields]
+        mixed = [(len(texts), short) for texts, short in zip(commas, shorts, strict=True) if len(texts) and short]
         # Of many decimals without a fixed number of digits, some would have fewer than three.
         if mixed and max(mixed)[0] >= SURELY_THOUSANDS:
             return ".", ","
         if mixed or (any(shorts) and separator != ";"):
-            raise ValueError(next(one.iloc[0] for one in commas if len(one)))
+            raise ValueError(next(texts.iloc[0] for texts in commas if len(texts)))
     return (".", "") if points > sum(map(len, commas)) else (",", "")
 
 
@@ -333,8 +336,8 @@ def to_numbers(texts: Any, signs: tuple[str, str]) -> Any:
     if texts.str.contains("[\u00a0\u202f']").any():
         texts = texts.str.replace(r"(?<=\d)[\u00a0\u202f'](?=\d{3})", "", regex=True)
     if thousands:
-        one = re.escape(thousands)
-        is_grouped = texts.str.fullmatch(rf"[-+]?\d{{1,3}}({one}\d{{3}})*([^{one}\d].*)?|[^{one}]*")
+        escaped = re.escape(thousands)
+        is_grouped = texts.str.fullmatch(rf"[-+]?\d{{1,3}}({escaped}\d{{3}})*([^{escaped}\d].*)?|[^{escaped}]*")
         texts = texts.where(is_grouped, "").str.replace(thousands, "", regex=False)
     if decimal == ",":
         # A point beside decimal commas is no number.

@@ -66,7 +66,8 @@ def label_starts(
         excitation cycles is `undecided`, or chaos if the Lyapunov exponent is positive
     starts : number of initial conditions of each conveyor, in all batches and shards
     """
-    batches, parts = batches_by_conveyor(parameters), []
+    batches = batches_by_conveyor(parameters)
+    parts = []
     for number, rows in enumerate(batches, start=1):
         label = progress and (f"{progress} ({number} of {len(batches)})" if len(batches) > 1 else progress)
         known = shared_attractors(parameters[rows], starts, settings, threads=threads, progress=label)

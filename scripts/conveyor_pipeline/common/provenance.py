@@ -75,9 +75,10 @@ def costs(benchmarks: Path, logs: Path) -> dict[str, dict[str, float | int]]:
     """
     jobs = []
     for file in sorted(benchmarks.glob("*/**/*.tsv")):
-        name, measured = file.relative_to(benchmarks), pd.read_csv(file, sep="\t", na_values="-")
+        name = file.relative_to(benchmarks)
+        benchmark = pd.read_csv(file, sep="\t", na_values="-")
         compiling = compile_seconds((logs / name).with_suffix(".log"))
-        jobs.append((name.parts[0], measured["s"].sum(), compiling, measured["max_rss"].max()))
+        jobs.append((name.parts[0], benchmark["s"].sum(), compiling, benchmark["max_rss"].max()))
     table = pd.DataFrame(jobs, columns=["kind", "seconds", "compiling", "memory"])
 
     def total(rows: pd.DataFrame) -> dict[str, float | int]:

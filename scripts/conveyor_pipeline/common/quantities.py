@@ -74,13 +74,13 @@ def is_quantity(text: str) -> bool:
 
 def parse(text: str, unit: str) -> Any:
     """A text as pint's quantity; `unit` decides whether g is a gram or the standard acceleration of gravity."""
-    number, own = QUANTITY.fullmatch(text).groups()
+    number, unit_text = QUANTITY.fullmatch(text).groups()
     for pattern, spelling in SPELLINGS:
-        own = re.sub(pattern, spelling, own)
+        unit_text = re.sub(pattern, spelling, unit_text)
     if unit == "m/s²":
-        own = re.sub(r"\b(m?)g\b", r"\1standard_gravity", own)
+        unit_text = re.sub(r"\b(m?)g\b", r"\1standard_gravity", unit_text)
     try:
-        return registry().Quantity(float(number), registry().parse_units(own))
+        return registry().Quantity(float(number), registry().parse_units(unit_text))
     except Exception as error:  # pint raises errors of many kinds, also those of Python's tokenizer
         raise QuantityError(f"has an unknown unit; give {KEYS.get(unit, SHARES)}") from error
 
@@ -98,7 +98,8 @@ def in_unit(text: str, unit: str) -> float:
     if not is_quantity(text):
         comma = "; write decimal points, not commas" if re.match(r"\s*[-+]?\d+,\d", text) else ""
         raise QuantityError(f"should be a number, or one with a unit: {KEYS.get(unit, SHARES)}{comma}")
-    quantity, key = parse(text, unit), unit if unit in KEYS else ""
+    quantity = parse(text, unit)
+    key = unit if unit in KEYS else ""
     if unit == STIFFNESS:
         key = f"N/m**{exponent_of(text) or 1.0!r}"
     if not quantity.is_compatible_with(registry().parse_units(key)):
@@ -110,8 +111,8 @@ def in_unit(text: str, unit: str) -> float:
 
 def length_in(text: str) -> str | None:
     """The length at the beginning of a text, such as "0.5 mm" in "0.5 mm peak to peak", or None."""
-    found = QUANTITY.fullmatch(text)
-    length = f"{found[1]} {found[2].split()[0]}" if found else ""
+    match = QUANTITY.fullmatch(text)
+    length = f"{match[1]} {match[2].split()[0]}" if match else ""
     try:
         in_unit(length, "m")
     except QuantityError:

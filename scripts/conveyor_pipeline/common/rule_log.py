@@ -90,16 +90,16 @@ def logged(path: str) -> Iterator[None]:
     A JobError ends the script with its message alone, because a traceback tells a user nothing.
     """
     terminal = sys.stderr
-    with open(path, "w", encoding="utf-8") as log, closing(Tee(terminal, log)) as both:
-        sys.stderr = both
+    with open(path, "w", encoding="utf-8") as log, closing(Tee(terminal, log)) as tee:
+        sys.stderr = tee
         try:
             check_imports()
             yield
         except JobError as error:
-            print(error, file=both.log)
+            print(error, file=tee.log)
             sys.exit(str(error))
         except BaseException:
-            traceback.print_exc(file=both.log)
+            traceback.print_exc(file=tee.log)
             raise
         finally:
             sys.stderr = terminal

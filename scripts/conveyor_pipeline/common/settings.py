@@ -23,10 +23,10 @@ def number(description: str, unit: str = "", **bounds: float) -> Any:
     return Annotated[float, field, BeforeValidator(partial(as_number, unit))]
 
 
-def whole(description: str, least: int, most: int, unit: str = "") -> Any:
+def whole(description: str, minimum: int, maximum: int, unit: str = "") -> Any:
     """A whole number in any spelling: 50000 or 5.0e+4."""
     extra = {"unit": unit} if unit else None
-    field = Field(ge=least, le=most, description=description, json_schema_extra=extra)
+    field = Field(ge=minimum, le=maximum, description=description, json_schema_extra=extra)
     return Annotated[int, field, BeforeValidator(as_integer)]
 
 
@@ -139,9 +139,9 @@ def check_span(values: dict) -> dict:
     return values
 
 
-def many(item: Any, description: str, least: int = 1, check=check_distinct) -> Any:
+def list_of(item: Any, description: str, min_length: int = 1, check=check_distinct) -> Any:
     """A list of distinct values."""
-    field = Field(min_length=least, max_length=LONGEST_LIST, fail_fast=True, description=description)
+    field = Field(min_length=min_length, max_length=LONGEST_LIST, fail_fast=True, description=description)
     return Annotated[list[item], field, AfterValidator(check)]
 
 
@@ -151,24 +151,24 @@ def interval(item: Any, description: str, point: bool = False) -> Any:
     return Annotated[list[item], field, AfterValidator(partial(check_interval, point=point))]
 
 
-def span(item: Any, description: str, least: int = 2, partial: bool = False) -> Any:
+def span(item: Any, description: str, min_length: int = 2, partial: bool = False) -> Any:
     """{start, stop, num}: num evenly spaced values from start to stop, both included; some of them, if `partial`."""
-    keys = {"start": item, "stop": item, "num": whole("number of values", least, MOST_POINTS)}
+    keys = {"start": item, "stop": item, "num": whole("number of values", min_length, MOST_POINTS)}
     return Annotated[mapping(description, keys, total=not partial), AfterValidator(check_span)]
 
 
-def either(description: str, expected: str, choose, **forms: Any) -> Any:
+def union(description: str, expected: str, choose, **forms: Any) -> Any:
     """One of several forms; `choose` returns the name of the form that a value has, or None.
 
     The location of an error contains this name in brackets.
     """
-    one, other = (Annotated[form, Tag(f"({name})")] for name, form in forms.items())
+    first, second = (Annotated[form, Tag(f"({name})")] for name, form in forms.items())
     form = Discriminator(
         lambda value: f"({choose(value)})" if choose(value) else None,
         custom_error_type="form",
         custom_error_message=f"Input should be {expected}",
     )
-    return Annotated[one | other, form, Field(description=description)]
+    return Annotated[first | second, form, Field(description=description)]
 
 
 def axis_form(value: Any) -> str | None:
@@ -181,11 +181,14 @@ def height_form(value: Any) -> str | None:
 
 
 def axis(
-    item: Any, description: str, end: Any = None, least: int = 1, check=check_distinct, partial: bool = False
+    item: Any, description: str, end: Any = None, min_length: int = 1, check=check_distinct, partial: bool = False
 ) -> Any:
     """A list of values or a span; `end` is the type of start and stop where a value may also be a word."""
-    forms = {"list": many(item, description, least, check), "span": span(end or item, description, least, partial)}
-    return either(description, "a list of values, or {start: …, stop: …, num: …}", axis_form, **forms)
+    forms = {
+        "list": list_of(item, description, min_length, check),
+        "span": span(end or item, description, min_length, partial),
+    }
+    return union(description, "a list of values, or {start: …, stop: …, num: …}", axis_form, **forms)
 
 
 def parameter(name: str, description: str = "") -> Any:
@@ -215,7 +218,7 @@ def keep_order(values: Any, validate) -> dict:
 
 MODEL_TYPES = {name: parameter(name) for name in RANGES} | {
     "tension": word(DESCRIPTIONS["tension"], *TENSION_MODES),
-    "z0": either(
+    "z0": union(
         DESCRIPTIONS["z0"],
         "a number, or the word conveyor",
         height_form,
@@ -241,7 +244,7 @@ OPTIONAL = {
 # Keys of the section `model`; without its own value static_friction is equal to friction.
 MODEL_KEYS = MODEL_TYPES | OPTIONAL
 AXIS_TYPES = {name: axis(item, DESCRIPTIONS[name]) for name, item in MODEL_TYPES.items()} | {
-    "tension": many(MODEL_TYPES["tension"], DESCRIPTIONS["tension"]),
+    "tension": list_of(MODEL_TYPES["tension"], DESCRIPTIONS["tension"]),
     "z0": axis(MODEL_TYPES["z0"], DESCRIPTIONS["z0"], end=parameter("z0")),
 }
 Axes = Annotated[
@@ -271,7 +274,7 @@ class Followed(TypedDict):
     model: NotRequired[Model]
     method: NotRequired[Method]
     methods: NotRequired[
-        many(Method, "methods; the first one makes the table NAME, each further one a table NAME_METHOD")
+        list_of(Method, "methods; the first one makes the table NAME, each further one a table NAME_METHOD")
     ]
     tolerance: NotRequired[Tolerance]
     step: NotRequired[Step]

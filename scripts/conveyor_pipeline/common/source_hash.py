@@ -67,7 +67,7 @@ def versions(packages: Iterable[str]) -> list[str]:
         if package in sys.stdlib_module_names:
             continue
         names = providers(package)
-        for name in [*names, *(behind for one in names for behind in BEHIND.get(one, ()))]:
+        for name in [*names, *(behind for provider in names for behind in BEHIND.get(provider, ()))]:
             lines.add(f"{name}=={version(name)}")
         if not names:
             lines.add(f"{package}: none")

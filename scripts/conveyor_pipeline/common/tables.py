@@ -128,8 +128,8 @@ def gather(
     kind, settings : of the table
     rows : first row of each shard, and the row after its last one, which the settings of a shard contain
     """
-    for shard, own in zip(shards, rows, strict=True):
-        check(shard, kind, settings | {"rows": own})
+    for shard, row_range in zip(shards, rows, strict=True):
+        check(shard, kind, settings | {"rows": row_range})
     write_blocks(path, read_blocks(shards, settings))
 
 

@@ -2,11 +2,11 @@
 
 from typing_extensions import TypedDict
 
-from conveyor_pipeline.common.settings import Model, Name, described, entries, many
+from conveyor_pipeline.common.settings import Model, Name, described, entries, list_of
 
 
 class Companion(TypedDict):
-    maps: many(Name, "sweeps over two parameters")
+    maps: list_of(Name, "sweeps over two parameters")
     presets: entries(Model, "conveyors of the page", min_length=1)
 
 

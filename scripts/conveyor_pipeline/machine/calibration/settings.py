@@ -5,7 +5,17 @@ from typing import NotRequired
 from typing_extensions import TypedDict
 
 from conveyor.parameters import DESCRIPTIONS, INITIAL_CONDITION
-from conveyor_pipeline.common.settings import MODEL_TYPES, Line, Seed, described, interval, many, mapping, number, word
+from conveyor_pipeline.common.settings import (
+    MODEL_TYPES,
+    Line,
+    Seed,
+    described,
+    interval,
+    list_of,
+    mapping,
+    number,
+    word,
+)
 from conveyor_pipeline.common.table_settings import model_of
 from conveyor_pipeline.machine.calibration.measurements import CALIBRATED
 from conveyor_pipeline.machine.operating.settings import box_of
@@ -22,7 +32,7 @@ RANGES_OF_CALIBRATION = {
 
 class Calibration(TypedDict):
     measurements: NotRequired[described(Line, "CSV file of measured velocities, relative to this overlay")]
-    parameters: many(word("parameter that is searched", *CALIBRATED), "parameters that are searched")
+    parameters: list_of(word("parameter that is searched", *CALIBRATED), "parameters that are searched")
     alternatives: mapping(
         "largest difference from the stated value that is searched in addition",
         {
@@ -46,14 +56,14 @@ def calibration_settings(config: dict) -> dict:
     """The search leaves the values of the searched parameters in the model open. The static friction stays as stated
     and limits the friction; 0 stands for none. A config to which calibrated parameters are added has the same settings.
     """
-    own = config["calibration"]
+    section = config["calibration"]
     static_friction = config["model"].get("static_friction", 0.0)
-    ranges = {name: own["ranges"][name] for name in own["parameters"]}
+    ranges = {name: section["ranges"][name] for name in section["parameters"]}
     if static_friction and "friction" in ranges:
         ranges["friction"] = [ranges["friction"][0], min(ranges["friction"][1], static_friction)]
-    stated = (*INITIAL_CONDITION, "static_friction", *own["parameters"])
+    stated = (*INITIAL_CONDITION, "static_friction", *section["parameters"])
     model = model_of(config, without=stated)
-    return {**box_of(config), **own, "ranges": ranges, "static_friction": static_friction, "model": model}
+    return {**box_of(config), **section, "ranges": ranges, "static_friction": static_friction, "model": model}
 
 
 TABLE_SETTINGS = {

@@ -5,7 +5,7 @@ from typing import Any, NotRequired
 from typing_extensions import TypedDict
 
 from conveyor.materials import ELASTOMERS, LARGEST_RADIUS, SOFTEST, STIFFEST, materials
-from conveyor_pipeline.common.settings import described, either, mapping, number, text
+from conveyor_pipeline.common.settings import described, mapping, number, text, union
 from conveyor_pipeline.machine.contact.derive import contact_of
 from conveyor_pipeline.machine.operating.settings import blocks_settings
 
@@ -16,7 +16,7 @@ def material_form(value: Any) -> str | None:
 
 SHORE = r"(([2-8]\d|9[0-5])A|([3-6]\d|7[0-5])D)"  # the hardnesses of `conveyor.materials.HARDNESS`
 NAMES = f"one of {', '.join(materials())}, or an elastomer of 20A to 95A or 30D to 75D, such as {ELASTOMERS[1]}_85A"
-MATERIAL = either(
+MATERIAL = union(
     "a material, or its moduli",
     "the name of a material, or {modulus: …, poisson: …}",
     material_form,

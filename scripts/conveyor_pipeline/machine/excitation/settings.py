@@ -11,7 +11,7 @@ from conveyor_pipeline.common.settings import (
     check_ascending,
     described,
     dimensionless,
-    many,
+    list_of,
     mapping,
     number,
     whole,
@@ -34,13 +34,13 @@ class Excitation(TypedDict):
 
 class CleanDrive(TypedDict):
     dimensionless: dimensionless(
-        riding=many(THROW, "throw numbers at which the slowest parts ride"),
-        chaos=many(THROW, "throw numbers in chaos"),
+        riding=list_of(THROW, "throw numbers at which the slowest parts ride"),
+        chaos=list_of(THROW, "throw numbers in chaos"),
     )
-    riding: NotRequired[many(Acceleration, "amplitudes at which the slowest parts ride")]
-    chaos: NotRequired[many(Acceleration, "amplitudes in chaos")]
-    orders: many(whole("order of a harmonic", 2, 20), "orders of the harmonic")
-    shares: many(number("share of a harmonic, over the fundamental", gt=0, le=1), "shares", check=check_ascending)
+    riding: NotRequired[list_of(Acceleration, "amplitudes at which the slowest parts ride")]
+    chaos: NotRequired[list_of(Acceleration, "amplitudes in chaos")]
+    orders: list_of(whole("order of a harmonic", 2, 20), "orders of the harmonic")
+    shares: list_of(number("share of a harmonic, over the fundamental", gt=0, le=1), "shares", check=check_ascending)
     phases: whole("phases of the harmonic, over a whole turn", 1, 360)
 
 

@@ -20,7 +20,7 @@ from conveyor_pipeline.common.settings import (
     described,
     dimensionless,
     interval,
-    many,
+    list_of,
     mapping,
     number,
     span,
@@ -109,7 +109,7 @@ class Supply(TypedDict):
 
 class Switching(TypedDict):
     rise: number("time in which the drive reaches its amplitude, and in which it stops", "s", gt=0, le=100)
-    push: many(number("speed of a push away from the plate", "m/s", gt=0, le=100), "pushes of a part on the plate")
+    push: list_of(number("speed of a push away from the plate", "m/s", gt=0, le=100), "pushes of a part on the plate")
 
 
 class Throws(TypedDict):
@@ -169,22 +169,22 @@ SECTIONS = {
 }
 
 
-def box_of(config: dict, *more: str) -> dict:
+def box_of(config: dict, *keys: str) -> dict:
     """The box from which initial conditions are drawn, and more keys of the section `operating`."""
-    return {name: config["operating"][name] for name in ("height", "vz0", "psi0", *more)}
+    return {name: config["operating"][name] for name in ("height", "vz0", "psi0", *keys)}
 
 
 def box_settings(section: str, config: dict) -> dict:
     """A section whose initial conditions are drawn from the box of the section `operating`."""
     limits = {"settling": config["solver"]["settling"]}
-    own = {**box_of(config, "starts", "seed", "tolerance"), **config[section], **limits}
-    return {**own, "model": model_of(config, without=(*INITIAL_CONDITION, *config[section]))}
+    settings = {**box_of(config, "starts", "seed", "tolerance"), **config[section], **limits}
+    return {**settings, "model": model_of(config, without=(*INITIAL_CONDITION, *config[section]))}
 
 
 def transit_axis(config: dict) -> dict | list:
     """The amplitudes of the transit table: those of the section `operating`, with what `transit.acceleration` gives."""
-    shared, own = config["operating"]["acceleration"], config["transit"].get("acceleration", {})
-    return {**shared, **own} if isinstance(own, dict) and isinstance(shared, dict) else own or shared
+    shared, override = config["operating"]["acceleration"], config["transit"].get("acceleration", {})
+    return {**shared, **override} if isinstance(override, dict) and isinstance(shared, dict) else override or shared
 
 
 def remedies_for_amplitudes(config: dict, stated: dict) -> dict[str, str]:
@@ -204,8 +204,8 @@ def transit_settings(config: dict, without: Iterable[str] = ()) -> dict:
     """The box of `operating`, the section `transit`, how its parts differ, and the model without some parameters."""
     transit = {name: config["transit"][name] for name in ("length", "longest")}
     transit |= {"acceleration": transit_axis(config), "starts": config["transit"]["parts"]}
-    own = {**box_of(config, "seed", "tolerance"), **transit}
-    return {**own, "spread": config["parts"], "model": model_of(config, without=(*INITIAL_CONDITION, *without))}
+    settings = {**box_of(config, "seed", "tolerance"), **transit}
+    return {**settings, "spread": config["parts"], "model": model_of(config, without=(*INITIAL_CONDITION, *without))}
 
 
 def blocks_settings(config: dict) -> dict:
@@ -215,8 +215,8 @@ def blocks_settings(config: dict) -> dict:
 
 def bodies_settings(config: dict) -> dict:
     """The box of `operating`, effort and the model without an amplitude."""
-    own = {**box_of(config, "seed"), **config["bodies"]}
-    return {**own, "model": model_of(config, without=INITIAL_CONDITION)}
+    settings = {**box_of(config, "seed"), **config["bodies"]}
+    return {**settings, "model": model_of(config, without=INITIAL_CONDITION)}
 
 
 def assumed_parts(config: dict, stated: dict) -> list[str]:
@@ -239,8 +239,8 @@ def parts_settings(config: dict, without: Iterable[str] = ()) -> dict:
 
 def start_settings(config: dict) -> dict:
     """The parts and the amplitudes of the transit table, and how the drive is switched."""
-    own = {name: value for name, value in transit_settings(config).items() if name not in ("length", "longest")}
-    return {**own, **config["start"]}
+    transit = {name: value for name, value in transit_settings(config).items() if name not in ("length", "longest")}
+    return {**transit, **config["start"]}
 
 
 def drift_settings(config: dict) -> dict:
@@ -254,10 +254,10 @@ def advice_settings(config: dict) -> dict:
 
     `range` has the lowest and the highest amplitude over the set one. `supply` is missing if the config states none.
     """
-    own, supply, frequency = config["advice"], config["supply"], config["model"]["frequency"]
+    section, supply, frequency = config["advice"], config["supply"], config["model"]["frequency"]
     if "resonance" not in supply:
-        return {**own, "range": [1.0 - own["margin"], 1.0 + own["margin"]]}
-    return {**own, "range": list(amplitude_range(supply, frequency)), "supply": supply}
+        return {**section, "range": [1.0 - section["margin"], 1.0 + section["margin"]]}
+    return {**section, "range": list(amplitude_range(supply, frequency)), "supply": supply}
 
 
 def drive_settings(config: dict) -> dict:

@@ -2,13 +2,13 @@
 
 from typing_extensions import TypedDict
 
-from conveyor_pipeline.common.settings import Name, described, many, number
+from conveyor_pipeline.common.settings import Name, described, list_of, number
 from conveyor_pipeline.paper.claims.statements import read_claims
 
 
 class Uncertainty(TypedDict):
     tighter: number("factor of the tighter tolerances", gt=1, le=1e4)
-    claims: many(Name, "claims that are checked with tighter tolerances", least=0)
+    claims: list_of(Name, "claims that are checked with tighter tolerances", min_length=0)
 
 
 SECTIONS = {"uncertainty": described(Uncertainty, "check of the claims with tighter tolerances")}

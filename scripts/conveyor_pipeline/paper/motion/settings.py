@@ -27,7 +27,7 @@ class Impacts(TypedDict):
 
 
 class Critical(Followed):
-    scan: axis(HeightNumber, "initial heights that are scanned for changes", least=2, check=check_ascending)
+    scan: axis(HeightNumber, "initial heights that are scanned for changes", min_length=2, check=check_ascending)
 
 
 SECTIONS = {

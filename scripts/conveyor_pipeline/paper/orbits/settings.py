@@ -16,7 +16,7 @@ from conveyor_pipeline.common.settings import (
     described,
     entries,
     interval,
-    many,
+    list_of,
     number,
     whole,
     word,
@@ -49,7 +49,7 @@ class Orbits(TypedDict):
 
 
 class CertifiedChaos(TypedDict):
-    acceleration: many(Acceleration, "amplitudes of the proofs of chaos", least=0)
+    acceleration: list_of(Acceleration, "amplitudes of the proofs of chaos", min_length=0)
 
 
 class Certificates(TypedDict):
@@ -82,8 +82,8 @@ SPECTRUM_TOLERANCE = 1e-12  # of Lyapunov exponents: λ1 + λ2 is checked to 1e-
 
 def with_solver(config: dict, section: str, *keys: str) -> dict:
     """A section with some keys of the section `solver`, which it may replace, and with its model."""
-    own = {key: config["solver"][key] for key in keys} | config[section]
-    return own | {"model": model_of(config, section, normal=True)}
+    settings = {key: config["solver"][key] for key in keys} | config[section]
+    return settings | {"model": model_of(config, section, normal=True)}
 
 
 def branches_settings(config: dict) -> dict:
@@ -91,10 +91,10 @@ def branches_settings(config: dict) -> dict:
 
 
 def certified_settings(config: dict) -> dict:
-    own = config["certificates"]
-    low, high = (end(ends(own["acceleration"])) for end in (min, max))
+    section = config["certificates"]
+    low, high = (end(ends(section["acceleration"])) for end in (min, max))
     also = [acceleration for acceleration in ALSO if low <= acceleration <= high]
-    return {**own, "also": also, "model": model_of(config, "orbits", normal=True)}
+    return {**section, "also": also, "model": model_of(config, "orbits", normal=True)}
 
 
 def strobes_settings(config: dict) -> dict:

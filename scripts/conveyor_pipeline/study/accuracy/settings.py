@@ -12,7 +12,7 @@ from conveyor_pipeline.common.settings import (
     Name,
     Reference,
     described,
-    many,
+    list_of,
     mapping,
     whole,
 )
@@ -33,7 +33,7 @@ class SceneBudget(TypedDict):
 
 
 class MapCheck(TypedDict):
-    maps: many(Name, "sweeps over two parameters")
+    maps: list_of(Name, "sweeps over two parameters")
     points: whole("points of each map", 1, MOST_POINTS)
 
 
@@ -69,9 +69,9 @@ def precision_settings(config: dict, scene: str) -> dict:
 
 
 def scene_budget_settings(config: dict) -> dict:
-    own = config["scene_budget"]
-    points = {section: max(1, round(own["effort"] * count)) for section, count in BUDGETED.items()}
-    return {"points": points, "reasons": own["reasons"]}
+    budget = config["scene_budget"]
+    points = {section: max(1, round(budget["effort"] * count)) for section, count in BUDGETED.items()}
+    return {"points": points, "reasons": budget["reasons"]}
 
 
 def settling_settings(config: dict) -> dict:
