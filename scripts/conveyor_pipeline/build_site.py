@@ -17,12 +17,12 @@ if __name__ == "__main__":
     numba.config.DISABLE_JIT = True
     with logged(snakemake.log[0]), tempfile.TemporaryDirectory() as folder:
         check_code(snakemake.params.code)
-        given = snakemake.input
-        extra = {"figures": given.pdf, "": [given.article, given.companion]}
+        inputs = snakemake.input
+        extra = {"figures": inputs.pdf, "": [inputs.article, inputs.companion]}
         pages = {
-            "": [*given.pages, *given.examples, *given.pictures],
-            "guides": given.guides,
-            "diagrams": given.diagrams,
+            "": [*inputs.pages, *inputs.examples, *inputs.pictures],
+            "guides": inputs.guides,
+            "diagrams": inputs.diagrams,
         }
-        site.gather(folder, pages, given.style, given.png, extra)
+        site.gather(folder, pages, inputs.style, inputs.png, extra)
         site.build(folder, snakemake.output[0])

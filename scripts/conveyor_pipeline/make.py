@@ -36,7 +36,7 @@ def read(path: str, expected: dict[str, list]) -> Any:
 def read_inputs(paths: dict[str, Any], expected: dict[str, list]) -> dict[str, Any]:
     """The contents of inputs by name."""
     return {
-        name: read(path, expected) if isinstance(path, str) else [read(one, expected) for one in path]
+        name: read(path, expected) if isinstance(path, str) else [read(item, expected) for item in path]
         for name, path in paths.items()
     }
 

@@ -39,11 +39,11 @@ def name_measurements(config: dict, files: Sequence[str | Path], contents: list[
     A name that no overlay gives, such as one from the command line, is relative to the working directory.
     """
     for section, key in MEASURED_FILES.items():
-        given = config[section].get(key)
+        name = config[section].get(key)
         for file, content in zip(files, contents, strict=True):
-            own = content.get(section)
-            if isinstance(own, dict) and isinstance(given, str) and own.get(key) == given:
-                config[section][key] = os.path.join(os.path.dirname(file), own[key])
+            overlay_section = content.get(section)
+            if isinstance(overlay_section, dict) and isinstance(name, str) and overlay_section.get(key) == name:
+                config[section][key] = os.path.join(os.path.dirname(file), overlay_section[key])
 
 
 def check_one_conveyor(files: Sequence[str | Path], contents: list[dict]) -> None:

@@ -39,7 +39,7 @@ def origin_of(path: tuple[str, ...], lines: dict[tuple[str | int, ...], str]) ->
     """FILE:LINE of a key, of the dimensionless value that it follows from, or of the nearest key above it."""
     dimensionless = ((*path[:end], "dimensionless", *path[end:]) for end in range(1, len(path)))
     above = (path[:end] for end in range(len(path) - 1, 0, -1))
-    return next(lines[one] for one in (path, *dimensionless, *above) if one in lines)
+    return next(lines[candidate] for candidate in (path, *dimensionless, *above) if candidate in lines)
 
 
 def show(config: dict, stated: dict, files: list[str]) -> Iterator[str]:
@@ -52,10 +52,10 @@ def show(config: dict, stated: dict, files: list[str]) -> Iterator[str]:
     # The keys that a derived parameter of the model follows from are in its section.
     derived = {("model", name): (section,) for name, section in origins_of(config).items()}
     for path, value in values_of(config):
-        at = derived.get(path, path)
-        origin = origin_of(at, lines)
+        source = derived.get(path, path)
+        origin = origin_of(source, lines)
         if path in derived:
-            origin += f": from the section {at[0]}"
+            origin += f": from the section {source[0]}"
         if isinstance(texts.get(path), str) and texts[path] != value:
             origin += f": {texts[path]}"
         yield f"{format_key(path)} = {with_unit(path, value)}    # {origin}"
@@ -67,12 +67,12 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m conveyor_pipeline.config", description=__doc__)
     parser.add_argument("--show", action="store_true", help="print all values and their origins")
     parser.add_argument("file", nargs="*", help="an overlay, as for Snakemake's option --configfile")
-    given = parser.parse_args()
-    defaults, overlays = map(os.path.relpath, DEFAULT_FILES), [os.path.relpath(USER_FILE), *given.file]
+    args = parser.parse_args()
+    defaults, overlays = map(os.path.relpath, DEFAULT_FILES), [os.path.relpath(USER_FILE), *args.file]
     try:
         loaded = load_config(overlays, {})
     except ConfigError as error:
         sys.exit(str(error))
     print(
-        "\n".join(show(loaded.merged, loaded.stated, [*defaults, *overlays])) if given.show else "The config is valid."
+        "\n".join(show(loaded.merged, loaded.stated, [*defaults, *overlays])) if args.show else "The config is valid."
     )

@@ -57,12 +57,14 @@ def other_models(config: dict, defaults: dict) -> Iterator[str]:
     sections = {key: (config[section][name], defaults[section][name]) for key, (section, name) in entries.items()}
     sections |= {name: (config[name], defaults[name]) for name in ("orbits", "attractors") if name in defaults}
     models = {"model": ({}, {})}
-    models |= {f"{key}.model": (own.get("model", {}), paper.get("model", {})) for key, (own, paper) in sections.items()}
+    models |= {
+        f"{key}.model": (section.get("model", {}), paper.get("model", {})) for key, (section, paper) in sections.items()
+    }
     for key, differences in models.items():
-        own, paper = (one["model"] | differing for one, differing in zip((config, defaults), differences, strict=True))
-        if not is_same_model(own, paper):
-            name = next(name for name, value in own.items() if name not in paper or value != paper[name])
-            yield f"{key}.{name} = {own[name]!r}"
+        model, paper = (base["model"] | change for base, change in zip((config, defaults), differences, strict=True))
+        if not is_same_model(model, paper):
+            name = next(name for name, value in model.items() if name not in paper or value != paper[name])
+            yield f"{key}.{name} = {model[name]!r}"
 
 
 def measured_files(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
@@ -120,9 +122,9 @@ def friction(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 
 def faults_of_friction(config: dict, changed: dict[str, dict]) -> Iterator[str]:
     """Static friction below sliding friction in models; `changed` are their differences from the config's, by key."""
-    for key, own in changed.items():
-        model = config["model"] | own
-        if "static_friction" in model and own.keys() & {"friction", "static_friction"}:
+    for key, differences in changed.items():
+        model = config["model"] | differences
+        if "static_friction" in model and differences.keys() & {"friction", "static_friction"}:
             values = (model[name] for name in ("friction", "static_friction"))
             sliding, static = (value if isinstance(value, list) else [value] for value in values)
             if min(static) < max(sliding):
@@ -134,12 +136,12 @@ def faults_of_friction(config: dict, changed: dict[str, dict]) -> Iterator[str]:
 
 def exponent(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Another exponent with the default stiffness, whose number has another unit then."""
-    own, default = config["model"], defaults["model"]
-    is_given = "stiffness" in (stated.get("model") or {}) or own["stiffness"] != default["stiffness"]
-    if config["prefix"] and own["exponent"] != default["exponent"] and not is_given:
-        unit = f"N/m^{own['exponent']:g}".removesuffix("^1")
+    model, default = config["model"], defaults["model"]
+    is_given = "stiffness" in (stated.get("model") or {}) or model["stiffness"] != default["stiffness"]
+    if config["prefix"] and model["exponent"] != default["exponent"] and not is_given:
+        unit = f"N/m^{model['exponent']:g}".removesuffix("^1")
         remedy = f"state model.stiffness in {unit} too"
-        yield f"model.exponent = {own['exponent']!r} changes the unit of model.stiffness; {remedy}"
+        yield f"model.exponent = {model['exponent']!r} changes the unit of model.stiffness; {remedy}"
 
 
 def faults_of_stiffness(config: dict, typed: dict) -> Iterator[str]:
@@ -185,19 +187,19 @@ def steps(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 
 
 def faults_of_step(key: str, step: float, duration: float, frequency: float) -> Iterator[str]:
-    given = f"{key} = {step!r} s"
+    shown = f"{key} = {step!r} s"
     largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
     whole = max(1, round(duration / step))
     if step > duration:
-        yield f"{given} is longer than its duration of {duration!r} s; take less"
+        yield f"{shown} is longer than its duration of {duration!r} s; take less"
     elif step > largest * (1.0 + 1e-9):
-        yield f"{given} is too long for {frequency:g} Hz; take at most {largest:g} s, 1/{STEPS_IN_A_CYCLE} of a cycle"
+        yield f"{shown} is too long for {frequency:g} Hz; take at most {largest:g} s, 1/{STEPS_IN_A_CYCLE} of a cycle"
     elif duration / step > MOST_STEPS:
-        least = f"{duration / MOST_STEPS:g} s"
-        yield f"{given} makes {duration / step:.0e} steps of {duration!r} s; take at least {least}"
+        shortest = f"{duration / MOST_STEPS:g} s"
+        yield f"{shown} makes {duration / step:.0e} steps of {duration!r} s; take at least {shortest}"
     elif abs(duration / step - whole) > 1e-9 * whole:
         remedy = f"take {duration / whole:.12g}, or another duration"
-        yield f"{given} does not divide its duration of {duration:.10g} s; {remedy}"
+        yield f"{shown} does not divide its duration of {duration:.10g} s; {remedy}"
 
 
 def known_tables(config: dict, defaults: dict) -> list[str]:
@@ -242,8 +244,8 @@ def unused_keys(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     for section in FIGURES:
         for figure in config[section].keys() & defaults[section]:
             for key in ("tables", "caption_tables", "settings", "marks"):
-                given, known = (entries[figure].get(key, {}) for entries in (config[section], defaults[section]))
-                for name in (name for name in given if name not in known):
+                configured, known = (entries[figure].get(key, {}) for entries in (config[section], defaults[section]))
+                for name in (name for name in configured if name not in known):
                     yield f"{section}.{figure}.{key}.{name} is an unknown key; {suggest_name(name, known)}"
 
 
@@ -281,7 +283,8 @@ def problems(config: dict, defaults: dict | None = None, stated: dict | None = N
     """
     if errors := type_problems(config):
         return errors
-    typed, defaults = MODEL.validate_python(config), default_config() if defaults is None else defaults
+    typed = MODEL.validate_python(config)
+    defaults = default_config() if defaults is None else defaults
     if faults := [*faults_of_stiffness(config, typed), *faults_of_scales(typed, defaults)]:
         return faults
     # Converted values have the limits of their SI units, and a partial axis has what the default gives.

@@ -15,8 +15,8 @@ SAME = 1e-3  # relative difference up to which a stated value agrees with the de
 
 def with_derived(config: dict) -> dict:
     """A config whose model has all parameters that follow from other sections."""
-    found = {name: value for derive in DERIVED.values() for name, value in derive(config).items()}
-    return {**config, "model": config["model"] | found}
+    derived = {name: value for derive in DERIVED.values() for name, value in derive(config).items()}
+    return {**config, "model": config["model"] | derived}
 
 
 def origins_of(config: dict) -> dict[str, str]:
@@ -28,14 +28,14 @@ def faults_of_derived(config: dict, defaults: dict, stated: dict) -> Iterator[st
     """Sections that cannot be met, and those that a stated parameter of the model contradicts; one line each."""
     for section, derive in DERIVED.items():
         try:
-            found = derive(config)
+            derived = derive(config)
         except ValueError as error:
             yield str(error)
             continue
-        for name, value in found.items():
-            own = config["model"][name]
-            is_given = name in (stated.get("model") or {}) or own != defaults["model"][name]
-            if is_given and not math.isclose(own, value, rel_tol=SAME):
+        for name, value in derived.items():
+            model_value = config["model"][name]
+            is_given = name in (stated.get("model") or {}) or model_value != defaults["model"][name]
+            if is_given and not math.isclose(model_value, value, rel_tol=SAME):
                 remedy = f"remove it, or what gives it in the section {section}"
                 value = f"{value!r} {UNITS[name]}".replace("^p", f"^{config['model']['exponent']:g}")
-                yield f"model.{name} = {own!r} contradicts the section {section}, which gives {value}; {remedy}"
+                yield f"model.{name} = {model_value!r} contradicts the section {section}, which gives {value}; {remedy}"

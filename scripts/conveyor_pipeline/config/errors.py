@@ -29,9 +29,9 @@ class ConfigError(Exception):
 
     def __init__(self, lines: list[str]):
         head = "The config cannot be used"
-        if (more := len(lines) - MOST_LINES + 1) > 0:
+        if (remaining := len(lines) - MOST_LINES + 1) > 0:
             lines = lines[: MOST_LINES - 1]
-            head += f"; the first {len(lines)} errors, {more} more"
+            head += f"; the first {len(lines)} errors, {remaining} more"
         super().__init__("\n".join([f"{head}:", *lines]))
 
 
@@ -77,7 +77,8 @@ def explain(error: dict, config: Any) -> str:
     """One line for an error of pydantic in a config."""
     # Without the names of forms ("(span)"), and without "[key]" behind a name of the user's choice.
     path = [part for part in error["loc"] if str(part)[:1] != "(" and part != "[key]"]
-    kind, is_name = error["type"], error["loc"][-1:] == ("[key]",)
+    kind = error["type"]
+    is_name = error["loc"][-1:] == ("[key]",)
     value = error["input"] if is_name else given_at(config, path, error["input"])
     key, above, schema = format_key(path), format_key(path[:-1]), schema_at(path)
     shown = f"{key} = {format_value(value)}"
@@ -99,7 +100,7 @@ def explain(error: dict, config: Any) -> str:
     if kind == "value_error":
         return f"{shown} {error['ctx']['error']}"
     if kind == "string_pattern_mismatch":
-        (expected,) = {one["patternErrorMessage"] for one in options_of(schema) if "patternErrorMessage" in one}
+        (expected,) = {form["patternErrorMessage"] for form in options_of(schema) if "patternErrorMessage" in form}
         return f"{shown} should be {expected}"
     if kind == "dict_type" and path:
         return (
@@ -110,7 +111,8 @@ def explain(error: dict, config: Any) -> str:
     if kind == "string_type" and isinstance(value, int | float):
         return f"{shown} is a number, not text; put it in quotes"
     # "Input should be …", "List should have …"
-    unit, fault = unit_of(schema), error["msg"].partition(" ")[2]
+    unit = unit_of(schema)
+    fault = error["msg"].partition(" ")[2]
     for name, bound in error.get("ctx", {}).items():
         fault = f"should be {BOUNDS[name]} {bound:g}" if name in BOUNDS else fault
     if kind.endswith("_parsing"):
@@ -138,6 +140,6 @@ def type_problems(config: Any) -> list[str]:
         MODEL.validate_python(config)
     except ValidationError as invalid:
         errors = invalid.errors(include_url=False)
-        more = [f"{format_key(error['loc'])}: {error['msg']}" for error in errors[MOST_EXPLAINED:]]
-        return [explain(error, config) for error in errors[:MOST_EXPLAINED]] + more
+        unexplained = [f"{format_key(error['loc'])}: {error['msg']}" for error in errors[MOST_EXPLAINED:]]
+        return [explain(error, config) for error in errors[:MOST_EXPLAINED]] + unexplained
     return []

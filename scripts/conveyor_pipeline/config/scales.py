@@ -53,12 +53,13 @@ def section_at(config: dict, path: tuple[str, ...]) -> dict:
 
 def to_si(config: dict) -> dict:
     """A config of the right types without keys `dimensionless`."""
-    scales, converted = scales_of(config["model"]), merge(config)
+    scales = scales_of(config["model"])
+    converted = merge(config)
     for path in SCALED:
         section, schema = section_at(converted, path), schema_at([*path])
         values = section.pop("dimensionless", {})
-        found = {key: convert(value, child(schema, key), scales) for key, value in values.items()}
-        section |= merge(found, {key: section[key] for key in found if key in section})
+        si_values = {key: convert(value, child(schema, key), scales) for key, value in values.items()}
+        section |= merge(si_values, {key: section[key] for key in si_values if key in section})
     return converted
 
 

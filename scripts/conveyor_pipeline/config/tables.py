@@ -56,7 +56,8 @@ def settings_of(config: dict, reference: str) -> dict:
 
 def tighter_claims(config: dict, claims: dict[str, dict]) -> dict[str, dict]:
     """The claims whose uncertainty is estimated, with tables of tighter tolerances for the converged solution."""
-    known, tightened = set(references(config)), {}
+    known = set(references(config))
+    tightened = {}
     for name in config["uncertainty"]["claims"]:
         claim = claims[name]
         # A claim without a role of this name reads converged tables only.
