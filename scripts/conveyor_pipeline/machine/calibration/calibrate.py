@@ -108,14 +108,15 @@ def calibrate(
             fit["explained"] &= not any(row["preferred"] for row in alternatives)
             bar.update(runs_of_check(data, settings))
         else:
-            bar.total, alternatives = bar.n, []
+            bar.total = bar.n
+            alternatives = []
             fit = {column.name: [None] * len(measured) for column in TABLES["fit"]} | measured_columns(data, settings)
     chosen = draw(posterior, settings["samples"] if converged else 0)
     values = values_at(posterior.points[chosen], settings)
-    others = {name: np.full(len(chosen), value) for name, value in settings["model"].items() if name in CALIBRATED}
+    fixed = {name: np.full(len(chosen), value) for name, value in settings["model"].items() if name in CALIBRATED}
     return {
         "parameters": fields.columns(summarize_parameters(posterior, settings), TABLES["parameters"]),
-        "samples": {**others, **values, "log_likelihood": posterior.log_density[chosen]},
+        "samples": {**fixed, **values, "log_likelihood": posterior.log_density[chosen]},
         "fit": fit,
         "alternatives": fields.columns(alternatives, TABLES["alternatives"]),
     }

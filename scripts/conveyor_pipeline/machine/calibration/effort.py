@@ -21,20 +21,20 @@ PREDICTED_PARTS = 8  # random initial conditions for each of them
 
 def sizes_of(effort: float) -> dict[str, float]:
     """All numbers of samples for an effort, each at least as large as its use demands."""
-    most = min(effort, 1.0)
+    capped = min(effort, 1.0)
     return {
         "first": max(32, round(effort * FIRST)),
         "points": max(32, round(effort * POINTS)),
         "rough_rounds": max(1, round(effort * ROUGH_ROUNDS)),
         "rounds": max(1, round(effort * ROUNDS)),
         "enough": max(EFFECTIVE, effort * ENOUGH),
-        "parts": max(8, round(most * PARTS)),
+        "parts": max(8, round(capped * PARTS)),
         "rough_parts": ROUGH_PARTS,
-        "samples": max(32, round(most * SAMPLES)),
-        "checked": max(2, round(most * CHECKED)),
-        "checked_parts": max(8, round(most * CHECKED_PARTS)),
-        "replicates": max(200, round(most * REPLICATES)),
-        "amplitudes": max(5, round(most * AMPLITUDES)),
-        "predicted": max(16, round(most * PREDICTED)),
+        "samples": max(32, round(capped * SAMPLES)),
+        "checked": max(2, round(capped * CHECKED)),
+        "checked_parts": max(8, round(capped * CHECKED_PARTS)),
+        "replicates": max(200, round(capped * REPLICATES)),
+        "amplitudes": max(5, round(capped * AMPLITUDES)),
+        "predicted": max(16, round(capped * PREDICTED)),
         "predicted_parts": PREDICTED_PARTS,
     }

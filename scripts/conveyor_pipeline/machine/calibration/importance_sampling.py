@@ -126,7 +126,7 @@ def smoothed(factors: np.ndarray, points: np.ndarray, weights: np.ndarray, width
 
 
 def flattened(
-    densities: Callable[[int], np.ndarray], count: int, mixture: np.ndarray, least: float, is_even: bool
+    densities: Callable[[int], np.ndarray], count: int, mixture: np.ndarray, enough: float, is_even: bool
 ) -> np.ndarray:
     """Weights, shape (n,), of the first of several densities that keeps enough effective points.
 
@@ -138,20 +138,20 @@ def flattened(
     mixture : logarithm of the proposals, shape (n,)
     is_even : whether the first proposal fills the bounds evenly
     """
-    most = 0.0
+    largest_size = 0.0
     for place in range(count):
         density = densities(place)
         weights, size = normalize(density - mixture)
-        if size >= least:
+        if size >= enough:
             return weights
-        if size > most:
-            most, values = size, density
+        if size > largest_size:
+            largest_size, best_density = size, density
     if not is_even:
-        least = min(least, 0.5 * np.isfinite(values).sum())
+        enough = min(enough, 0.5 * np.isfinite(best_density).sum())
     power = 1.0
-    while size < least:
+    while size < enough:
         power *= FLATTER
-        weights, size = normalize(power * values - mixture if is_even else power * (values - mixture))
+        weights, size = normalize(power * best_density - mixture if is_even else power * (best_density - mixture))
     return weights
 
 
@@ -163,7 +163,8 @@ def settle(
     Smoothing in units of a wider sample gives a sample that is too wide, but narrower than that one. The repetition
     ends when the volume hardly changes, or when there are not enough effective points for it.
     """
-    volume, ridge = math.inf, RIDGE * np.eye(points.shape[1])
+    volume = math.inf
+    ridge = RIDGE * np.eye(points.shape[1])
     while True:
         values = smoothed(factors, points, weights, width)
         weights, size = normalize(values - mixture)
@@ -192,7 +193,7 @@ def draw_from(density: Kernels, count: int, random: np.random.Generator) -> np.n
 
 def log_kernels(density: Kernels, points: np.ndarray) -> np.ndarray:
     """Logarithm of a kernel density estimate at points of shape (n, d), shape (n,)."""
-    distances = cdist(*(whitened(one, density.lower) for one in (points, density.centres)), "sqeuclidean")
+    distances = cdist(*(whitened(vectors, density.lower) for vectors in (points, density.centres)), "sqeuclidean")
     scale = float(np.sum(log(np.diagonal(density.lower)))) + 0.5 * len(density.lower) * math.log(2.0 * math.pi)
     return log_sum(log(density.weights) - 0.5 * distances) - scale
 
@@ -230,7 +231,8 @@ def sample(
     """
     random = np.random.default_rng(seed)
     low, high = bounds
-    volume, dimensions = float(np.sum(log(high - low))), len(low)
+    volume = float(np.sum(log(high - low)))
+    dimensions = len(low)
     proposals: list[Kernels | None] = []  # None: even
     shares: list[float] = []  # logarithms of the numbers of their points, relative to those of a round
 
@@ -243,17 +245,17 @@ def sample(
         drawn = draw_from(density, count, random)
         return drawn[((drawn >= low) & (drawn <= high)).all(axis=1)]
 
-    def log_proposal(place: int, at: np.ndarray) -> np.ndarray:
+    def log_proposal(place: int, vectors: np.ndarray) -> np.ndarray:
         """Logarithm of the density of a proposal over the even one, times its share."""
         density = proposals[place]
-        return shares[place] + (np.zeros(len(at)) if density is None else volume + log_kernels(density, at))
+        return shares[place] + (np.zeros(len(vectors)) if density is None else volume + log_kernels(density, vectors))
 
     x = propose(None if near is None else kernels(*near), first)
     factors = log_factors(x)
     if not np.isfinite(factors.sum(axis=-1)).any():
         raise ValueError("no point within the bounds is possible")
     mixture = log_proposal(0, x)  # logarithm of the sum of all proposals
-    least = max(LEAST * dimensions, LEAST_SHARE * points)
+    needed = max(LEAST * dimensions, LEAST_SHARE * points)
 
     def tempered(known: np.ndarray, width: float) -> np.ndarray:
         """Weights of the least inflated density that keeps enough effective points, smoothed in units of `known`."""
@@ -261,7 +263,7 @@ def sample(
         def density(place: int) -> np.ndarray:
             return smoothed(factors[place], x, known, width)
 
-        return flattened(density, len(factors), mixture, least, near is None)
+        return flattened(density, len(factors), mixture, needed, near is None)
 
     known = tempered(np.full(len(x), 1.0 / len(x)), 0.0)
     while True:
@@ -287,13 +289,13 @@ def sample(
 
 def pooled(samples: list[Sample]) -> Sample:
     """One sample from several searches of the same posterior; each counts with its evidence."""
-    evidences = np.array([one.log_evidence for one in samples])
+    evidences = np.array([sample.log_evidence for sample in samples])
     shares, _ = normalize(evidences)
-    weights = np.concatenate([share * one.weights for share, one in zip(shares, samples, strict=True)])
-    counts = [len(one.points) for one in samples]
+    weights = np.concatenate([share * sample.weights for share, sample in zip(shares, samples, strict=True)])
+    counts = [len(sample.points) for sample in samples]
     return Sample(
-        np.vstack([one.points for one in samples]),
-        np.concatenate([one.log_density for one in samples]),
+        np.vstack([sample.points for sample in samples]),
+        np.concatenate([sample.log_density for sample in samples]),
         weights,
         float(log_sum(evidences)) - math.log(len(samples)),
         effective_number(weights),
@@ -311,10 +313,11 @@ def monte_carlo_error(
     weights, search : of all points, and the number of the search that has found each of them, shape (n,)
     summary : function of the weights
     """
-    searches, all_weights = np.unique(search), weights
+    searches = np.unique(search)
+    all_weights = weights
     without = []
-    for one in searches:
-        weights = np.where(search == one, 0.0, all_weights)
+    for number in searches:
+        weights = np.where(search == number, 0.0, all_weights)
         if weights.sum() == 0.0:
             return np.full_like(summary(all_weights), math.inf)
         without.append(summary(weights / weights.sum()))

@@ -53,7 +53,7 @@ class Data(NamedTuple):
 
     measured: list[Measurement]
     conditions: Conditions
-    of: np.ndarray  # number of the condition of each measurement, shape (r,)
+    condition_of: np.ndarray  # number of the condition of each measurement, shape (r,)
     velocity: np.ndarray  # m/s, shape (r,)
     sd: np.ndarray  # m/s, shape (r,), NaN where none is given
     plate: np.ndarray  # largest velocity of the plate, m/s, shape (r,)
@@ -61,10 +61,10 @@ class Data(NamedTuple):
 
 def data_of(measured: list[Measurement], model: dict) -> Data:
     """The measurements and their conditions."""
-    conditions, of = conditions_of(measured, model)
-    velocity = np.array([one.velocity for one in measured])
-    sd = np.array([math.nan if one.sd is None else one.sd for one in measured])
-    return Data(measured, conditions, of, velocity, sd, conditions.plate[of])
+    conditions, condition_of = conditions_of(measured, model)
+    velocity = np.array([row.velocity for row in measured])
+    sd = np.array([math.nan if row.sd is None else row.sd for row in measured])
+    return Data(measured, conditions, condition_of, velocity, sd, conditions.plate[condition_of])
 
 
 def log_factors(simulated: np.ndarray, data: Data, settings: dict, inflations: tuple[float, ...]) -> np.ndarray:
@@ -72,8 +72,8 @@ def log_factors(simulated: np.ndarray, data: Data, settings: dict, inflations: t
 
     simulated : velocities under each condition, shape (n, k, parts)
     """
-    spread = widths(simulated)[:, data.of]
-    arguments = (data.velocity, simulated[:, data.of], data.sd, data.plate, settings["noise"], spread)
+    spread = widths(simulated)[:, data.condition_of]
+    arguments = (data.velocity, simulated[:, data.condition_of], data.sd, data.plate, settings["noise"], spread)
     return np.array([log_densities(*arguments, inflation) for inflation in inflations])
 
 
@@ -86,10 +86,10 @@ def runs_of_search(data: Data, settings: dict) -> int:
 
 def shortened(conditions: Conditions) -> Conditions:
     """The same conditions, but with at most CYCLES cycles before the measurement, and as many during it."""
-    most = CYCLES / conditions.rows["frequency"]
+    longest = CYCLES / conditions.rows["frequency"]
     begin, end = conditions.times.T
-    before = np.minimum(begin, most)
-    return conditions._replace(times=np.column_stack([before, before + np.minimum(end - begin, most)]))
+    before = np.minimum(begin, longest)
+    return conditions._replace(times=np.column_stack([before, before + np.minimum(end - begin, longest)]))
 
 
 def search_once(data: Data, settings: dict, number: int, near: Near, threads: int, bar: tqdm) -> Sample:
@@ -108,11 +108,11 @@ def search_once(data: Data, settings: dict, number: int, near: Near, threads: in
             conditions, parts, inflations = shortened(conditions), settings["rough_parts"], INFLATIONS[ROUGH:]
         best, rounds = -math.inf, 0
 
-        def worth(few: np.ndarray) -> np.ndarray:
+        def worth(first_velocities: np.ndarray) -> np.ndarray:
             nonlocal best
-            log_likelihood = log_factors(few, data, settings, inflations[:1])[0].sum(axis=1)
+            log_likelihood = log_factors(first_velocities, data, settings, inflations[:1])[0].sum(axis=1)
             best = max(best, log_likelihood.max())
-            known = is_known(few, data.velocity, data.of, inflations[0] * sd)
+            known = is_known(first_velocities, data.velocity, data.condition_of, inflations[0] * sd)
             return (log_likelihood > best - HOPELESS)[:, None] & ~known
 
         def follow(points: np.ndarray) -> np.ndarray:
@@ -124,15 +124,15 @@ def search_once(data: Data, settings: dict, number: int, near: Near, threads: in
             bar.update(simulated.size)
             return log_factors(simulated, data, settings, inflations)
 
-        most = settings["rounds" if fine else "rough_rounds"]
-        sizes = {"first": first, "points": settings["points"], "rounds": most, "enough": enough}
+        most_rounds = settings["rounds" if fine else "rough_rounds"]
+        sizes = {"first": first, "points": settings["points"], "rounds": most_rounds, "enough": enough}
         return sample(follow, bounds_of(settings), **sizes, seed=[settings["seed"], number, fine], near=near)
 
     begun = bar.n
     rough = step(False, near, settings["first"], ENOUGH_ROUGH)
-    found = step(True, (rough.points, rough.weights), settings["points"], settings["enough"])
+    posterior = step(True, (rough.points, rough.weights), settings["points"], settings["enough"])
     bar.total = max(bar.n, bar.total + (bar.n - begun) - runs_of_search(data, settings))
-    return found
+    return posterior
 
 
 def search(
@@ -150,15 +150,16 @@ def search(
     searches : their number at first, which share the effective samples that are wanted, and at most
     bar : progress over the usual number of runs of all searches
     """
-    first, most = searches
+    first, limit = searches
     bar = progress_bar(total=first * runs_of_search(data, settings), label=None) if bar is None else bar
-    own, samples = settings | {"enough": settings["enough"] / first}, []
-    while len(samples) < most:
+    settings_of_search = settings | {"enough": settings["enough"] / first}
+    samples = []
+    while len(samples) < limit:
         if len(samples) >= first:
             bar.total += runs_of_search(data, settings)
-        samples.append(search_once(data, own, len(samples), near, threads, bar))
+        samples.append(search_once(data, settings_of_search, len(samples), near, threads, bar))
         posterior = pooled(samples)
-        if first <= len(samples) < most and agree(posterior, settings):
+        if first <= len(samples) < limit and agree(posterior, settings):
             break
     return posterior
 
@@ -183,7 +184,7 @@ def summary_of(posterior: Sample, weights: np.ndarray, settings: dict) -> np.nda
     """
 
     def columns(points: np.ndarray) -> list[np.ndarray]:
-        return [log(one) if name in LOGARITHMIC else one for name, one in values_at(points, settings).items()]
+        return [log(column) if name in LOGARITHMIC else column for name, column in values_at(points, settings).items()]
 
     summary = summarize(columns(posterior.points), weights)
     summary[:, 0] = np.concatenate(columns(centre(posterior.points, weights)[None]))
@@ -214,8 +215,10 @@ def summarize_parameters(posterior: Sample, settings: dict) -> list[dict]:
     if not has_converged(posterior, settings):
         nothing = dict.fromkeys((*NUMBERS, "range_low", "range_high"), math.nan) | {"status": NOT_CONVERGED}
         return [{"parameter": name, "unit": UNITS[name], **nothing, **searches} for name in settings["ranges"]]
-    bounds, middle = bounds_of(settings), centre(posterior.points, posterior.weights)
-    summary, deviation = summary_of(posterior, posterior.weights, settings), errors(posterior, settings)
+    bounds = bounds_of(settings)
+    middle = centre(posterior.points, posterior.weights)
+    summary = summary_of(posterior, posterior.weights, settings)
+    deviation = errors(posterior, settings)
     rows = []
     for column, name in enumerate(settings["ranges"]):
         is_log = name in LOGARITHMIC

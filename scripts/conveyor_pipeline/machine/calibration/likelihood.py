@@ -58,11 +58,11 @@ def conditions_at(
     times : time before a measurement and its duration (s)
     """
     rows = []
-    for acceleration, own in zip(accelerations, changed, strict=True):
-        known = {name: value for name, value in own.items() if name not in INITIAL_CONDITION}
+    for acceleration, changes in zip(accelerations, changed, strict=True):
+        known = {name: value for name, value in changes.items() if name not in INITIAL_CONDITION}
         row = grid.row_of({**model, **known, "acceleration": acceleration})
         for name in INITIAL_CONDITION:
-            row[name] = own.get(name, math.nan)
+            row[name] = changes.get(name, math.nan)
         rows.append(row)
     before, lasts = np.array(times, dtype=np.float64).T
     return Conditions(np.array(rows), np.column_stack([before, before + lasts]))
@@ -70,7 +70,7 @@ def conditions_at(
 
 def conditions_of(measured: Sequence[Measurement], model: Mapping) -> tuple[Conditions, np.ndarray]:
     """The different conditions of the measurements, and the number of the condition of each one, shape (n,)."""
-    keys = [(one.acceleration, one.before, one.duration, tuple(sorted(one.changed.items()))) for one in measured]
+    keys = [(row.acceleration, row.before, row.duration, tuple(sorted(row.changed.items()))) for row in measured]
     distinct = list(dict.fromkeys(keys))
     conditions = conditions_at(
         [key[0] for key in distinct], [dict(key[3]) for key in distinct], [key[1:3] for key in distinct], model
@@ -109,12 +109,12 @@ def velocities(
     points = qmc.Sobol(3, scramble=False).random(1 << (parts - 1).bit_length())[:parts]
     low, high = np.array([settings[name] for name in ("height", "vz0", "psi0")], dtype=np.float64).T
 
-    def follow(sets: np.ndarray, of: np.ndarray, begin: int, end: int, label: str) -> np.ndarray:
+    def follow(sets: np.ndarray, condition_numbers: np.ndarray, begin: int, end: int, label: str) -> np.ndarray:
         """The velocities of the parts begin to end for pairs of sets and conditions, shape (m, end - begin)."""
         count = end - begin
-        drawn = (points[begin:end] + shift[sets, of][:, None]) % 1.0
+        drawn = (points[begin:end] + shift[sets, condition_numbers][:, None]) % 1.0
         height, speed, phase = np.moveaxis(low + (high - low) * drawn, -1, 0).reshape(3, -1)
-        rows, times = (np.repeat(own[of], count, axis=0) for own in conditions)
+        rows, times = (np.repeat(array[condition_numbers], count, axis=0) for array in conditions)
         rows["psi0"] = np.where(np.isnan(rows["psi0"]), phase, rows["psi0"])
         rows["vz0"] = np.where(np.isnan(rows["vz0"]), speed, rows["vz0"])
         rows = replace_parameters(rows, **{name: np.repeat(column[sets], count) for name, column in values.items()})
@@ -124,34 +124,36 @@ def velocities(
         return mean_velocities(rows, times, threads, progress and f"{progress}{label}").reshape(-1, count)
 
     first = parts if worth is None else min(FIRST, parts)
-    sets, of = np.indices((n, k)).reshape(2, -1)
-    few = follow(sets, of, 0, first, "").reshape(n, k, first)
-    means = np.tile(few, -(-parts // first))[..., :parts]
+    sets, condition_numbers = np.indices((n, k)).reshape(2, -1)
+    first_velocities = follow(sets, condition_numbers, 0, first, "").reshape(n, k, first)
+    means = np.tile(first_velocities, -(-parts // first))[..., :parts]
     if first < parts:
-        sets, of = np.nonzero(worth(few))
-        means[sets, of, first:] = follow(sets, of, first, parts, ", more parts")
+        sets, condition_numbers = np.nonzero(worth(first_velocities))
+        means[sets, condition_numbers, first:] = follow(sets, condition_numbers, first, parts, ", more parts")
     return means
 
 
-def is_known(few: np.ndarray, measured: np.ndarray, of: np.ndarray, sd: np.ndarray) -> np.ndarray:
+def is_known(
+    first_velocities: np.ndarray, measured: np.ndarray, condition_of: np.ndarray, sd: np.ndarray
+) -> np.ndarray:
     """Whether the first parts have one velocity, and it is the measured one, so that more parts tell nothing new.
 
     Parameters
     ----------
-    few : velocities under each condition, m/s, shape (n, k, parts)
+    first_velocities : velocities under each condition, m/s, shape (n, k, parts)
     measured, sd : velocities and their standard deviations, m/s, shape (r,)
-    of : number of the condition of each of them, shape (r,)
+    condition_of : number of the condition of each of them, shape (r,)
 
     Returns
     -------
     known : bool, shape (n, k)
     """
-    velocity = few.mean(axis=-1)
-    alike = np.ptp(few, axis=-1)[:, of] <= ALIKE * sd
-    own = alike & (np.abs(measured - velocity[:, of]) <= NEAR * sd)
-    known = np.ones(few.shape[:2], dtype=bool)
-    for column, condition in enumerate(of):
-        known[:, condition] &= own[:, column]
+    velocity = first_velocities.mean(axis=-1)
+    alike = np.ptp(first_velocities, axis=-1)[:, condition_of] <= ALIKE * sd
+    agrees = alike & (np.abs(measured - velocity[:, condition_of]) <= NEAR * sd)
+    known = np.ones(first_velocities.shape[:2], dtype=bool)
+    for column, condition in enumerate(condition_of):
+        known[:, condition] &= agrees[:, column]
     return known
 
 
@@ -167,20 +169,21 @@ def widths(velocities: np.ndarray) -> np.ndarray:
     """Standard deviation (m/s) of the density around each velocity, shape (…, parts), as the velocities; see above."""
     order = np.argsort(velocities, axis=-1, kind="stable")
     ascending = np.take_along_axis(velocities, order, axis=-1)
-    parts, rank = velocities.shape[-1], min(NEIGHBOUR, velocities.shape[-1] - 1)
+    parts = velocities.shape[-1]
+    rank = min(NEIGHBOUR, velocities.shape[-1] - 1)
     # The neighbour of some rank is the nearest end of one of the rank + 1 windows of neighbours around a value.
     distance = np.full_like(ascending, np.inf)
-    for left in range(rank + 1):
+    for offset in range(rank + 1):
         spans = np.full_like(ascending, np.inf)
-        inside = slice(left, parts - rank + left)
+        inside = slice(offset, parts - rank + offset)
         below = ascending[..., inside] - ascending[..., : parts - rank]
         above = ascending[..., rank:] - ascending[..., inside]
         spans[..., inside] = np.maximum(below, above)
         distance = np.fmin(distance, spans)
     variance = np.ma.masked_invalid(velocities).var(axis=-1, keepdims=True).filled(np.nan)
-    most = OF_ALL * np.sqrt(variance)
+    widest = OF_ALL * np.sqrt(variance)
     deviations = np.empty_like(velocities)
-    np.put_along_axis(deviations, order, np.minimum(WIDENED * distance, most), axis=-1)
+    np.put_along_axis(deviations, order, np.minimum(WIDENED * distance, widest), axis=-1)
     return deviations
 
 
@@ -191,8 +194,8 @@ def deviations(velocities: np.ndarray, sd: np.ndarray, plate: np.ndarray, noise:
     plate : largest velocity of the plate along the track (m/s)
     All arrays are of shapes that NumPy broadcasts.
     """
-    own = np.where(np.isnan(sd), noise * np.abs(velocities), sd)
-    return np.hypot(own, FLOOR * plate)
+    deviation = np.where(np.isnan(sd), noise * np.abs(velocities), sd)
+    return np.hypot(deviation, FLOOR * plate)
 
 
 def log_densities(

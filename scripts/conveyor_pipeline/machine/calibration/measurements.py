@@ -63,8 +63,8 @@ def first_comments(text: str) -> list[str]:
 
 def known_columns(parameters: Sequence[str], ranges: Mapping) -> dict[str, tuple[float, float]]:
     """The admissible interval of each column; a row cannot have its own value of a searched parameter."""
-    others = {name: interval for name, interval in ranges.items() if name not in (*parameters, "static_friction")}
-    return {**others, **{name: (low, high) for name, (_, low, high) in COLUMNS.items()}}
+    model_ranges = {name: interval for name, interval in ranges.items() if name not in (*parameters, "static_friction")}
+    return {**model_ranges, **{name: (low, high) for name, (_, low, high) in COLUMNS.items()}}
 
 
 def unknown_column(name: str, known: Mapping) -> str:
@@ -110,11 +110,11 @@ def plate_velocity(acceleration: float, model: Mapping[str, Any]) -> float:
     return acceleration * math.cos(model.get("angle", 0.0)) / (2.0 * math.pi * model["frequency"]) * shape
 
 
-def largest_velocity(measured: Measurement, model: Mapping[str, Any]) -> float:
+def largest_velocity(row: Measurement, model: Mapping[str, Any]) -> float:
     """Bound of the velocity of a part (m/s): the plate's, and what gravity adds on an inclined track."""
-    own = {**model, **measured.changed}
-    fall = own["gravity"] * abs(math.sin(own.get("inclination", 0.0)))
-    return plate_velocity(measured.acceleration, own) + fall * (measured.before + measured.duration)
+    row_model = {**model, **row.changed}
+    fall = row_model["gravity"] * abs(math.sin(row_model.get("inclination", 0.0)))
+    return plate_velocity(row.acceleration, row_model) + fall * (row.before + row.duration)
 
 
 def unit_faults(rows: list[Measurement], model: Mapping[str, Any], stated: str) -> list[tuple[int, str]]:
@@ -137,16 +137,16 @@ def unit_faults(rows: list[Measurement], model: Mapping[str, Any], stated: str) 
     # The factor by which most velocities exceed half of the plate's velocity, and the unit that explains it.
     factor = median(abs(row.velocity) / (0.5 * bound) for row, bound in fast)
     units = {100.0: "cm/s: divide by 100", 1000.0: "mm/s: divide by 1000", 60.0: "m/min: divide by 60"}
-    nearest = min(units, key=lambda one: abs(math.log(factor / one)))
+    nearest = min(units, key=lambda unit_factor: abs(math.log(factor / unit_factor)))
     row, bound = fast[0]
     unit = f"{stated}, as the header says, or {units[nearest]}" if stated else units[nearest]
     remedy = f"is the velocity in {unit}? Is the acceleration in g: multiply by 9.81?"
-    more = f" ({len(fast)} lines of {len(rows)} are like this)" if len(fast) > 1 else ""
+    extent = f" ({len(fast)} lines of {len(rows)} are like this)" if len(fast) > 1 else ""
     return [
         (
             row.line,
             f"velocity = {row.velocity:g} m/s is impossible, because the plate moves at most at {bound:.3g} m/s "
-            f"with {row.changed.get('frequency', model['frequency']):g} Hz; {remedy}{more}",
+            f"with {row.changed.get('frequency', model['frequency']):g} Hz; {remedy}{extent}",
         )
     ]
 
@@ -155,10 +155,10 @@ def height_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tup
     """Line and description of initial heights at which the part would be in the plate at any time."""
     faults = []
     for row in rows:
-        own = {**model, **row.changed}
-        shape = 1.0 + sum(harmonic["normal"] / harmonic["order"] ** 2 for harmonic in own.get("harmonics", ()))
-        normal = row.acceleration * math.sin(own.get("angle", 0.5 * math.pi))
-        stroke = shape * normal / (2.0 * math.pi * own["frequency"]) ** 2
+        row_model = {**model, **row.changed}
+        shape = 1.0 + sum(harmonic["normal"] / harmonic["order"] ** 2 for harmonic in row_model.get("harmonics", ()))
+        normal = row.acceleration * math.sin(row_model.get("angle", 0.5 * math.pi))
+        stroke = shape * normal / (2.0 * math.pi * row_model["frequency"]) ** 2
         if row.changed.get("z0", 0.0) < -stroke:
             fault = f"z0 = {row.changed['z0']:g} m is in the plate, which moves by at most ±{stroke:.3g} m"
             faults.append((row.line, f"{fault}; give the height above its mean position"))
@@ -182,7 +182,7 @@ def read_values(table: Any, known: Mapping) -> tuple[dict[str, Any], list[tuple[
         for line, _ in wrong:
             del read[line]
         faults += [(line, fault) for line, value in read.items() if (fault := value_fault(name, value, known[name]))]
-    return columns, sorted(faults, key=lambda one: one[0])
+    return columns, sorted(faults, key=lambda pair: pair[0])
 
 
 def parse(table: Any, settings: Mapping[str, Any], ranges: Mapping) -> list[Measurement]:
@@ -191,7 +191,8 @@ def parse(table: Any, settings: Mapping[str, Any], ranges: Mapping) -> list[Meas
     settings : `parameters`, which the measurements must determine, and the `model`, from which a row may differ
     ranges : admissible interval of each parameter of the model; other modules import this one without the library
     """
-    known, parameters = known_columns(settings["parameters"], ranges), len(settings["parameters"])
+    known = known_columns(settings["parameters"], ranges)
+    parameters = len(settings["parameters"])
     table = table._replace(names=[name.lower().strip() for name in table.names])
     if faults := list(header_faults(table.names, table.units, known)):
         raise table.error((table.header, fault) for fault in faults)
@@ -209,14 +210,16 @@ def parse(table: Any, settings: Mapping[str, Any], ranges: Mapping) -> list[Meas
         raise table.error(faults)
     if len(rows) < parameters:
         remedy = "measure more, or calibrate fewer with calibration.parameters"
-        given = f"{len(rows)} measurement{'s' if len(rows) != 1 else ''}"
+        count = f"{len(rows)} measurement{'s' if len(rows) != 1 else ''}"
         last = rows[-1].line if rows else table.header
-        raise table.error([(last, f"{given} cannot determine {parameters} parameters; {remedy}")])
+        raise table.error([(last, f"{count} cannot determine {parameters} parameters; {remedy}")])
     return rows
 
 
 def measurement_of(line: int, values: Mapping[str, float]) -> Measurement:
     """The measurement of a line."""
-    given = {name: value for name, value in values.items() if not math.isnan(value)}
-    own = {name: DEFAULTS.get(name) for name in COLUMNS} | {name: given.pop(name) for name in COLUMNS if name in given}
-    return Measurement(line, **own, changed=given)
+    stated = {name: value for name, value in values.items() if not math.isnan(value)}
+    columns = {name: DEFAULTS.get(name) for name in COLUMNS} | {
+        name: stated.pop(name) for name in COLUMNS if name in stated
+    }
+    return Measurement(line, **columns, changed=stated)

@@ -68,11 +68,11 @@ def one_sidedness(
     measured : m/s, shape (m, r)
     parts : velocities of parts under each condition, shape (k, parts)
     """
-    predicted = np.sort(replicates(parts[data.of], data, settings, settings["replicates"], random), axis=0)
+    predicted = np.sort(replicates(parts[data.condition_of], data, settings, settings["replicates"], random), axis=0)
     below = np.column_stack([np.searchsorted(*columns) for columns in zip(predicted.T, measured.T, strict=True)]) / len(
         predicted
     )
-    belongs = data.of[:, None] == np.arange(len(parts))
+    belongs = data.condition_of[:, None] == np.arange(len(parts))
     sums = product(below - 0.5, belongs.astype(np.float64))
     return dot(sums**2, 12.0 / belongs.sum(axis=0))
 
@@ -81,13 +81,15 @@ def compare(
     parts: np.ndarray, data: Data, settings: dict, random: np.random.Generator
 ) -> tuple[float, np.ndarray, np.ndarray]:
     """p-value, shares of the single measurements, shape (r,), and replicates, for velocities of parts, shape (k, n)."""
-    scored, other = np.split(np.where(np.isnan(parts), 0.0, parts), 2, axis=1)
-    drawn = replicates(other[data.of], data, settings, settings["replicates"], random)
+    scored, other_half = np.split(np.where(np.isnan(parts), 0.0, parts), 2, axis=1)
+    drawn = replicates(other_half[data.condition_of], data, settings, settings["replicates"], random)
     measured = np.vstack([data.velocity, drawn])
     spread = widths(scored)
     densities = [
-        log_densities(column[:, None], scored[[of]], sd, plate, settings["noise"], spread[[of]])[:, 0]
-        for column, of, sd, plate in zip(measured.T, data.of, data.sd[:, None], data.plate[:, None], strict=True)
+        log_densities(column[:, None], scored[[condition]], sd, plate, settings["noise"], spread[[condition]])[:, 0]
+        for column, condition, sd, plate in zip(
+            measured.T, data.condition_of, data.sd[:, None], data.plate[:, None], strict=True
+        )
     ]
     shares = tail_shares(np.column_stack(densities))
     sided = one_sidedness(measured, scored, data, settings, random)
@@ -103,10 +105,10 @@ def differs(measured: Measurement, model: dict) -> bool:
 def measured_columns(data: Data, settings: dict) -> dict:
     """The columns of the table of the fit that need no posterior."""
     return {
-        "line": [one.line for one in data.measured],
-        "acceleration": [one.acceleration for one in data.measured],
+        "line": [row.line for row in data.measured],
+        "acceleration": [row.acceleration for row in data.measured],
         "velocity": data.velocity,
-        "changed": [differs(one, settings["model"]) for one in data.measured],
+        "changed": [differs(row, settings["model"]) for row in data.measured],
         "sd": deviations(data.velocity, data.sd, data.plate, settings["noise"]),
     }
 
@@ -140,7 +142,7 @@ def check_fit(posterior: Sample, data: Data, settings: dict, *, threads: int = 1
 
 def settings_of_alternatives(data: Data, settings: dict) -> dict[str, dict]:
     """The settings of the search with one more parameter, by its name, for each that nobody has stated."""
-    stated = {*settings["ranges"], *(name for one in data.measured for name in one.changed)}
+    stated = {*settings["ranges"], *(name for row in data.measured for name in row.changed)}
     enough = {"enough": EFFECTIVE_OF_EVIDENCE}
     return {
         name: settings
@@ -157,19 +159,19 @@ def compare_alternatives(
     """The rows of the table of alternatives: the posterior with one more parameter, against the one without."""
     random = np.random.default_rng(settings["seed"])
     rows = []
-    for name, own in settings_of_alternatives(data, settings).items():
+    for name, search_settings in settings_of_alternatives(data, settings).items():
         # What is found without the alternative shows where to begin, with any value of it. The first step of a search
         # takes measurements for less accurate than they are, which widens the posterior by the same factor.
         middle = centre(posterior.points, posterior.weights)
         known = middle + INFLATIONS[ROUGH] * (posterior.points - middle)
-        near = np.column_stack([known, random.uniform(*own["ranges"][name], len(known))]), posterior.weights
+        near = np.column_stack([known, random.uniform(*search_settings["ranges"][name], len(known))]), posterior.weights
         # One search: an evidence needs no interval, and hardly differs between searches.
-        other = search(data, own, near=near, searches=(1, 1), threads=threads, bar=bar)
-        row = {"parameter": name, "unit": UNITS[name], "effective": other.size}
+        extended = search(data, search_settings, near=near, searches=(1, 1), threads=threads, bar=bar)
+        row = {"parameter": name, "unit": UNITS[name], "effective": extended.size}
         row |= {"value": math.nan, "log_bayes_factor": math.nan, "preferred": False}
-        if other.size >= EFFECTIVE_OF_EVIDENCE:
-            gain = other.log_evidence - posterior.log_evidence
-            value = values_at(centre(other.points, other.weights)[None], own)[name][0]
+        if extended.size >= EFFECTIVE_OF_EVIDENCE:
+            gain = extended.log_evidence - posterior.log_evidence
+            value = values_at(centre(extended.points, extended.weights)[None], search_settings)[name][0]
             row |= {"value": float(value), "log_bayes_factor": gain, "preferred": gain > math.log(DECISIVE)}
         rows.append(row)
     return rows

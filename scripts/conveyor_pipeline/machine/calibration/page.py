@@ -65,8 +65,8 @@ def make(
         for row in parameters.replace({np.nan: None}).to_dict("records")
     ]
     decades = alternatives.log_bayes_factor / math.log(10.0)
-    others = (
-        alternatives.assign(factor=["" if math.isnan(one) else power_of_ten(one) for one in decades])
+    alternative_rows = (
+        alternatives.assign(factor=["" if math.isnan(exponent) else power_of_ten(exponent) for exponent in decades])
         .sort_values("log_bayes_factor", ascending=False, kind="stable")
         .to_dict("records")
     )
@@ -86,8 +86,8 @@ def make(
             },
             "explained": bool(fit.explained.all()),
             "fits": bool(fit.p_value.iloc[0] >= SIGNIFICANCE),
-            "alternatives": others,
-            "preferred": [row for row in others if row["preferred"]],
+            "alternatives": alternative_rows,
+            "preferred": [row for row in alternative_rows if row["preferred"]],
             "p_value": float(fit.p_value.iloc[0]),
             "changed": int(fit.changed.sum()),
             "defaults": DEFAULTS,

@@ -62,12 +62,13 @@ def expected_narrowing(
     n, parts = simulated.shape
     place = random.permutation(n * parts)[:POSSIBLE]
     sample, part = np.divmod(place, parts)
-    true, accuracy = simulated[sample, part], (np.array([math.nan]), np.array([plate]), noise)
+    true = simulated[sample, part]
+    accuracy = (np.array([math.nan]), np.array([plate]), noise)
     result = true + random.standard_normal(len(true)) * deviations(true, *accuracy)
     logs = log_densities(result[:, None], simulated, *accuracy)  # rows of possible results, columns of samples
     # The part that gave a result must not count as evidence for its own sample.
-    others = np.array([np.delete(simulated[s], p) for s, p in zip(sample, part, strict=True)])
-    logs[np.arange(len(result)), sample] = log_densities(result, others, *accuracy)
+    other_parts = np.array([np.delete(simulated[s], p) for s, p in zip(sample, part, strict=True)])
+    logs[np.arange(len(result)), sample] = log_densities(result, other_parts, *accuracy)
     weights = exp(logs - logs.max(axis=1, keepdims=True))
     weights /= weights.sum(axis=1, keepdims=True)
     mean = product(weights, values)
@@ -111,7 +112,7 @@ def predict(
     options = {"parts": settings["predicted_parts"], "seed": settings["seed"], "threads": threads}
     simulated = velocities(values, conditions, settings, **options, progress=progress)
     random = np.random.default_rng(settings["seed"])
-    columns = np.column_stack([log(one) if name in LOGARITHMIC else one for name, one in values.items()])
+    columns = np.column_stack([log(column) if name in LOGARITHMIC else column for name, column in values.items()])
     columns = columns + 1e-12 * random.standard_normal(columns.shape)  # equal samples have no standard deviation
     gains = np.array(
         [

@@ -32,4 +32,6 @@ def values_at(coordinates: np.ndarray, settings: dict) -> dict[str, np.ndarray]:
     rows = replace_parameters(rows, **{name: values[name] for name in ("exponent", "inclination") if name in values})
     group, loss = groups_of_contact(rows["stiffness"], rows["damping"], rows)
     contact = contact_of_groups(values.get("stiffness", group), values.get("damping", loss), rows)
-    return values | {name: one for name, one in zip(("stiffness", "damping"), contact, strict=True) if name in values}
+    return values | {
+        name: value for name, value in zip(("stiffness", "damping"), contact, strict=True) if name in values
+    }

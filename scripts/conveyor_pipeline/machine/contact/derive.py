@@ -12,9 +12,9 @@ DIGITS = 6  # of values that follow from others
 NAMED = ("part", "lining")
 
 
-def moduli_of(given: str | dict) -> Any:
+def moduli_of(entry: str | dict) -> Any:
     """A material of the config as `hertz_stiffness` takes it."""
-    return (given["modulus"], given["poisson"]) if isinstance(given, dict) else given
+    return (entry["modulus"], entry["poisson"]) if isinstance(entry, dict) else entry
 
 
 def drop_speed(config: dict) -> float:
@@ -42,31 +42,32 @@ def contact_of(config: dict) -> dict[str, float]:
 
     ValueError names the key that is missing or cannot be met.
     """
-    own, model, found = config["contact"], config["model"], {}
+    section, model = config["contact"], config["model"]
+    derived = {}
     keys = (*NAMED, "radius")
-    given = [name for name in keys if own.get(name) is not None]
-    if missing := [name for name in keys if given and name not in given]:
+    stated = [name for name in keys if section.get(name) is not None]
+    if missing := [name for name in keys if stated and name not in stated]:
         remedy = "give it in m" if missing[0] == "radius" else "name its material"
         raise ValueError(
             f"contact.{missing[0]} is missing; part, lining and radius give the stiffness together; {remedy}, or "
-            f"remove {' and '.join(given)}"
+            f"remove {' and '.join(stated)}"
         )
-    if given:
+    if stated:
         if model["exponent"] != HERTZ:
             remedy = "give model.stiffness in place of part, lining and radius"
             raise ValueError(
                 f"contact.radius needs a Hertz contact, but model.exponent is {model['exponent']}; {remedy}"
             )
         try:
-            stiffness = hertz_stiffness(*(moduli_of(own[name]) for name in NAMED), own["radius"])
+            stiffness = hertz_stiffness(*(moduli_of(section[name]) for name in NAMED), section["radius"])
         except ValueError as error:
             raise ValueError(f"contact.{error}") from None
-        found["stiffness"] = rounded(stiffness)
-    if own.get("restitution") is not None:
-        contact = vars(on_level_plate(model, **found, damping=0.0, harmonics=()))
+        derived["stiffness"] = rounded(stiffness)
+    if section.get("restitution") is not None:
+        contact = vars(on_level_plate(model, **derived, damping=0.0, harmonics=()))
         try:
-            damping = damping_from(own["restitution"], drop_speed(config), tuple(contact.items()))
+            damping = damping_from(section["restitution"], drop_speed(config), tuple(contact.items()))
         except ValueError as error:
             raise ValueError(f"contact.{error}; give a larger one") from None
-        found["damping"] = rounded(damping)
-    return found
+        derived["damping"] = rounded(damping)
+    return derived

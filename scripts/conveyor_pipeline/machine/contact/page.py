@@ -17,13 +17,13 @@ SPEEDS = (0.02, 0.05, 0.1, 0.2, 0.5)  # m/s, in the table of restitutions
 NOTICEABLE = 0.2  # relative change of the velocity of the slowest parts that the page points out
 
 
-def describe(given: str | dict) -> dict:
+def describe(entry: str | dict) -> dict:
     """A material as the page names it; without a source for moduli of the config."""
-    if isinstance(given, str):
-        return material(given)._asdict()
-    modulus, poisson = moduli_of(given)
-    own = {"name": "the config's moduli", "description": "moduli of the config", "source": ""}
-    return own | {"modulus": modulus, "low": modulus, "high": modulus, "poisson": poisson}
+    if isinstance(entry, str):
+        return material(entry)._asdict()
+    modulus, poisson = moduli_of(entry)
+    labels = {"name": "the config's moduli", "description": "moduli of the config", "source": ""}
+    return labels | {"modulus": modulus, "low": modulus, "high": modulus, "poisson": poisson}
 
 
 def normal_acceleration(acceleration: float, model: dict) -> float:
@@ -34,12 +34,14 @@ def normal_acceleration(acceleration: float, model: dict) -> float:
 
 def make(template: str, variants: pd.DataFrame, advice: pd.DataFrame) -> str:
     """The page from its template, the table of variants and the advice."""
-    settings, aims = variants.attrs, {FAST: "fast for nearly all parts", EVEN: "even"}
+    settings = variants.attrs
+    aims = {FAST: "fast for nearly all parts", EVEN: "even"}
     if len(advice) == 2 and advice.acceleration.nunique() == 1:
         advice, variants, aims = advice[:1], variants[variants.aim == advice.aim.iloc[0]], {FAST: "fast and even"}
-    own, model, drop = settings["contact"], settings["model"], drop_speed(settings)
+    contact, model = settings["contact"], settings["model"]
+    drop = drop_speed(settings)
     impacts = {row.aim: row.impact_speed for row in advice.itertuples() if row.impact_speed > 0.0}
-    places = [(f"in the drop of {1e3 * own['drop_height']:g} mm", drop)]
+    places = [(f"in the drop of {1e3 * contact['drop_height']:g} mm", drop)]
     places += [(f"at the advised amplitude, {aim}", speed) for aim, speed in impacts.items()]
     places += [(None, speed) for speed in SPEEDS]
     by_aim = {}
@@ -60,24 +62,24 @@ def make(template: str, variants: pd.DataFrame, advice: pd.DataFrame) -> str:
     depths = {"drop": penetration(model, drop)}
     for row in advice[advice.aim.isin(impacts)].itertuples():
         depths[row.aim] = penetration(model, row.impact_speed, normal_acceleration(row.acceleration, model))
-    rest = (model["mass"] * model["gravity"] / model["stiffness"]) ** (1.0 / model["exponent"])
+    depth_at_rest = (model["mass"] * model["gravity"] / model["stiffness"]) ** (1.0 / model["exponent"])
     values = {
-        "contact": own,
+        "contact": contact,
         "model": model,
         "is_hertz": model["exponent"] == HERTZ,
-        "materials": {name: describe(own[name]) for name in NAMED} if own.get("radius") is not None else {},
+        "materials": {name: describe(contact[name]) for name in NAMED} if contact.get("radius") is not None else {},
         "stiffness_range": stiffness_range(settings),
         "contacts": contacts(settings),
-        "rest": rest,
+        "rest": depth_at_rest,
         "depths": depths,
         "restitutions": [
             {"place": place, "speed": speed, "restitution": restitution(on_level_plate(model), speed)}
-            for place, speed in sorted(places, key=lambda one: -one[1])
+            for place, speed in sorted(places, key=lambda pair: -pair[1])
         ],
         "by_aim": by_aim,
         "has_errors": variants.velocity_05_stderr.notna().any(),
         "aims": aims,
-        "has_elastomer": any(str(own.get(name)).startswith(ELASTOMERS) for name in NAMED),
+        "has_elastomer": any(str(contact.get(name)).startswith(ELASTOMERS) for name in NAMED),
         "factors": {"radius": RADIUS, "stated": STATED, "elastomer": UNCERTAINTY},
         "bounce": BOUNCE,
         "noticeable": NOTICEABLE,

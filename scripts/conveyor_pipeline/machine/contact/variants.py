@@ -40,16 +40,16 @@ TABLES = {
 
 def stiffness_range(settings: dict) -> tuple[float, float]:
     """Lowest and highest stiffness (N/m^p) that the section `contact` leaves open."""
-    own, model = settings["contact"], settings["model"]
-    if own.get("radius") is None:
+    section, model = settings["contact"], settings["model"]
+    if section.get("radius") is None:
         return model["stiffness"] / STATED, model["stiffness"] * STATED
     ends = []
-    for end, radius in (("low", own["radius"] / RADIUS), ("high", own["radius"] * RADIUS)):
+    for end, radius in (("low", section["radius"] / RADIUS), ("high", section["radius"] * RADIUS)):
         pairs = []
         for name in NAMED:
-            given = moduli_of(own[name])
-            one = material(given) if isinstance(given, str) else None
-            pairs.append((getattr(one, end), one.poisson) if one else given)
+            entry = moduli_of(section[name])
+            named = material(entry) if isinstance(entry, str) else None
+            pairs.append((getattr(named, end), named.poisson) if named else entry)
         ends.append(hertz_stiffness(*pairs, radius))
     return ends[0], ends[1]
 
@@ -59,7 +59,8 @@ def contacts(settings: dict) -> dict[str, dict[str, float]]:
 
     A contact that does not bounce in the drop has no variants of its damping, and none bounces higher than it fell.
     """
-    model, speed = settings["model"], drop_speed(settings)
+    model = settings["model"]
+    speed = drop_speed(settings)
     stated = restitution(on_level_plate(model), speed)
     low, high = stiffness_range(settings)
 
@@ -69,16 +70,16 @@ def contacts(settings: dict) -> dict[str, dict[str, float]]:
             damping = damping_of(drop, speed, on_level_plate(model, stiffness=stiffness)) if drop < 1.0 else 0.0
         return {"stiffness": stiffness, "damping": damping, "drop": drop}
 
-    found = {
+    variants = {
         STATED_CONTACT: {"stiffness": model["stiffness"], "damping": model["damping"], "drop": stated},
         SOFT: contact(low, stated),
         STIFF: contact(high, stated),
     }
     if stated > 0.0:
-        found[DEAD] = contact(model["stiffness"], stated * (1.0 - BOUNCE))
+        variants[DEAD] = contact(model["stiffness"], stated * (1.0 - BOUNCE))
         if stated * (1.0 + BOUNCE) < 1.0:
-            found[LIVELY] = contact(model["stiffness"], stated * (1.0 + BOUNCE))
-    return found
+            variants[LIVELY] = contact(model["stiffness"], stated * (1.0 + BOUNCE))
+    return variants
 
 
 def penetration(model: dict, speed: float, plate: float = 0.0) -> float:
@@ -99,17 +100,20 @@ def penetration(model: dict, speed: float, plate: float = 0.0) -> float:
 
 def make(advice: pd.DataFrame, settings: dict, *, threads: int = 1) -> dict[str, list]:
     """The table for the advised amplitudes; without advice it has no rows."""
-    found, rows = contacts(settings), []
-    models = [settings["model"] | {key: one[key] for key in ("stiffness", "damping")} for one in found.values()]
+    variants = contacts(settings)
+    rows = []
+    models = [
+        settings["model"] | {key: contact[key] for key in ("stiffness", "damping")} for contact in variants.values()
+    ]
     for row in advice.itertuples():
         amplitude = np.array([row.acceleration])
         populations = [population(amplitude, {**settings, "model": model}) for model in models]
         run = follow_parts(np.concatenate(populations), settings, threads=threads)
         speed = 0.0 if math.isnan(row.impact_speed) else row.impact_speed
         for (variant, contact), model, measures in zip(
-            found.items(), models, summarize_populations(run, settings["starts"]).to_dict("records"), strict=True
+            variants.items(), models, summarize_populations(run, settings["starts"]).to_dict("records"), strict=True
         ):
             impact = restitution(on_level_plate(model), speed) if speed > 0.0 else math.nan
-            own = {"variant": variant, "aim": row.aim, "acceleration": row.acceleration, "speed": speed}
-            rows.append(own | contact | {"restitution": impact} | measures)
+            about = {"variant": variant, "aim": row.aim, "acceleration": row.acceleration, "speed": speed}
+            rows.append(about | contact | {"restitution": impact} | measures)
     return fields.columns(rows, TABLES["variants"])
