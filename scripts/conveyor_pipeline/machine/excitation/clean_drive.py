@@ -41,11 +41,12 @@ def drives_of(settings: dict) -> list[tuple[int, float, float]]:
 def make(settings: dict, *, progress: str | None = None) -> pd.DataFrame:
     """The table for the settings of the config."""
     regimes = {amplitude: regime for regime in REGIMES for amplitude in settings[regime]}
-    amplitudes, tables = np.unique(list(regimes)), []
+    amplitudes = np.unique(list(regimes))
+    tables = []
     for order, share, phase in drives_of(settings):
         model = {**settings["model"], "harmonics": [harmonic(order, share, phase)] if order else []}
-        own = {**settings, "model": model}
-        table = transit.measure(amplitudes, own, (VARIED,), progress=progress)
+        drive_settings = {**settings, "model": model}
+        table = transit.measure(amplitudes, drive_settings, (VARIED,), progress=progress)
         tables.append(table.drop(columns="population").assign(order=order, share=share, phase=phase))
     table = pd.concat(tables, ignore_index=True)
     return table.assign(regime=table.acceleration.map(regimes))

@@ -35,10 +35,11 @@ def make(
     """The table for the parameters and harmonics above the noise that the accelerometer has measured."""
     model = settings["model"] | drive_of(parameters)
     amplitude = np.array([model.pop("acceleration")])
-    above, tables = harmonics_above_noise(harmonics), []
-    for drive, own in ((WITH, above), (WITHOUT, [])):
-        measured = {**settings, "model": {**model, "harmonics": own}, "starts": MORE * settings["starts"]}
-        table = transit.measure(amplitude, measured, (VARIED,), threads=threads, progress=progress)
+    above = harmonics_above_noise(harmonics)
+    tables = []
+    for drive, components in ((WITH, above), (WITHOUT, [])):
+        drive_settings = {**settings, "model": {**model, "harmonics": components}, "starts": MORE * settings["starts"]}
+        table = transit.measure(amplitude, drive_settings, (VARIED,), threads=threads, progress=progress)
         tables.append(table.drop(columns="population").assign(drive=drive))
     return pd.concat(tables, ignore_index=True)
 
@@ -54,7 +55,7 @@ def change(comparison: pd.DataFrame, name: str) -> dict[str, float]:
 
 def verdict(changes: list[dict[str, float]]) -> str:
     """Whether harmonics matter: whether a velocity changes by more than MATTERS, and by more than chance."""
-    large = [one for one in changes if abs(one["change"]) > MATTERS]
-    if any(abs(one["change"]) > SURE * one["stderr"] for one in large):
+    large = [effect for effect in changes if abs(effect["change"]) > MATTERS]
+    if any(abs(effect["change"]) > SURE * effect["stderr"] for effect in large):
         return YES
-    return PERHAPS if large or any(math.isnan(one["change"]) for one in changes) else NO
+    return PERHAPS if large or any(math.isnan(effect["change"]) for effect in changes) else NO

@@ -44,8 +44,8 @@ def harmless_shares(table: pd.DataFrame) -> pd.DataFrame:
     """
     worst = largest_changes(table).groupby(["regime", "acceleration", "order", "share"]).change.max().reset_index()
     rows = []
-    for (regime, acceleration, order), own in worst.groupby(["regime", "acceleration", "order"]):
-        shares, changes = np.array([0.0, *own.share]), np.array([0.0, *own.change])
+    for (regime, acceleration, order), group in worst.groupby(["regime", "acceleration", "order"]):
+        shares, changes = np.array([0.0, *group.share]), np.array([0.0, *group.change])
         above = np.flatnonzero(changes > MATTERS)
         limit = math.nan
         if len(above):
@@ -70,7 +70,8 @@ def statement_of(table: pd.DataFrame) -> dict[str, float | bool]:
     worst = largest_changes(table)
     worst = worst[worst.share == STATEMENT["share"]]
     sizes = worst.groupby(["regime", "measure", "acceleration"]).change.max()
-    chaos, riding = sizes[CHAOS, "velocity_50"].max(), sizes[RIDING, "velocity_05"]
+    chaos = sizes[CHAOS, "velocity_50"].max()
+    riding = sizes[RIDING, "velocity_05"]
     pure = table[table.order == 0]
     compared = table[(table.order == 0) | (table.share == STATEMENT["share"])]
     errors = pd.DataFrame({name: compared[f"{name}_stderr"] / compared[name].abs() for name in MEASURES})

@@ -98,8 +98,8 @@ def relative_difference(fitted: Fit, other: Fit) -> np.ndarray:
     """Difference of the harmonics of two fits over those of the first, shape (2, K); their phases refer to the
     fundamental normal to the track."""
     orders = np.arange(1, fitted.orders + 1)
-    one, two = (each.amplitudes * np.exp(-1j * orders * np.angle(each.amplitudes[1, 0])) for each in (fitted, other))
-    return np.abs(two / one - 1.0)
+    first, second = (fit.amplitudes * np.exp(-1j * orders * np.angle(fit.amplitudes[1, 0])) for fit in (fitted, other))
+    return np.abs(second / first - 1.0)
 
 
 def wander_variance(fit: Fit, phase: np.ndarray) -> np.ndarray:
@@ -115,7 +115,8 @@ def wander_variance(fit: Fit, phase: np.ndarray) -> np.ndarray:
 
 def noise_of(recording: Recording, fit: Fit, others: tuple[Fit, ...] = ()) -> Noise:
     """The errors of the harmonics near their frequencies; `others` are fits with other times of the samples."""
-    time, count = recording.time - fit.middle, len(recording.time)
+    time = recording.time - fit.middle
+    count = len(recording.time)
     duration = duration_of(recording.time)
     cycles = fit.frequency * duration
     last = min(MOST_SIDEBANDS, math.ceil(cycles) - 1)
@@ -139,11 +140,11 @@ def noise_of(recording: Recording, fit: Fit, others: tuple[Fit, ...] = ()) -> No
     added = (step_variance(recording, fit)[:, None] + timing_variance(recording, fit)) / np.abs(fit.amplitudes) ** 2
     for other in others:
         added += relative_difference(fit, other) ** 2
-    both = 0.5 * (above + np.conj(below)), -0.5j * (above - np.conj(below))
-    added += wander_variance(fit, both[1])
-    amplitude, phase = both
+    pair = 0.5 * (above + np.conj(below)), -0.5j * (above - np.conj(below))
+    added += wander_variance(fit, pair[1])
+    amplitude, phase = pair
     return Noise(
-        amplitude, phase, both[1][..., :SLOW], sum(np.abs(part) ** 2 for part in both), added, 2 * amplitude.shape[-1]
+        amplitude, phase, pair[1][..., :SLOW], sum(np.abs(part) ** 2 for part in pair), added, 2 * amplitude.shape[-1]
     )
 
 
@@ -204,16 +205,16 @@ def parameters(
 
     def change(name: str, mount: float, scale: ArrayLike, rate: float) -> float:
         scales = 1.0 + np.broadcast_to(scale, 2)[:, None]
-        others = values_of(scales * turn(fit.amplitudes, mount), fit.frequency * (1.0 + rate))
-        return wrap(others[name] - values[name]) if name == "phase_shift" else others[name] - values[name]
+        changed = values_of(scales * turn(fit.amplitudes, mount), fit.frequency * (1.0 + rate))
+        return wrap(changed[name] - values[name]) if name == "phase_shift" else changed[name] - values[name]
 
-    found = gravity.found
-    scales = (found.size - 1.0) * np.array([[1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])  # of both axes, or of one
+    known = gravity.if_present
+    scales = (known.size - 1.0) * np.array([[1.0, 1.0], [1.0, 0.0], [0.0, 1.0]])  # of both axes, or of one
     return {
         name: (
             values[name],
-            math.hypot(noise.student * math.sqrt(errors[name]), change(name, found.noise, found.noise, rate_error))
-            + max(abs(change(name, found.lean, scale, 0.0)) for scale in scales) / NORMAL,
+            math.hypot(noise.student * math.sqrt(errors[name]), change(name, known.noise, known.noise, rate_error))
+            + max(abs(change(name, known.lean, scale, 0.0)) for scale in scales) / NORMAL,
         )
         for name in PARAMETERS
     }
@@ -221,7 +222,8 @@ def parameters(
 
 def shares_of(amplitudes: np.ndarray, orders: np.ndarray) -> dict[str, np.ndarray]:
     """Shares and phases of the harmonics of some orders, by column name."""
-    zero, columns = np.angle(amplitudes[1, 0]), {}
+    zero = np.angle(amplitudes[1, 0])
+    columns = {}
     for axis, name in enumerate(AXES):
         columns[name] = np.abs(amplitudes[axis, 1:] / amplitudes[axis, 0])
         columns[f"{name}_phase"] = wrap(np.angle(amplitudes[axis, 1:]) - orders * zero)
@@ -234,11 +236,11 @@ def harmonics(fit: Fit, noise: Noise, gravity: Gravity = NO_GRAVITY) -> dict[str
     orders = np.arange(2, fit.orders + 1)
     tests = 2 * len(orders)
     columns: dict[str, np.ndarray] = {"order": orders}
-    turned = turn(fit.amplitudes, math.hypot(gravity.found.lean, gravity.found.noise))
-    values, others = shares_of(fit.amplitudes, orders), shares_of(turned, orders)
+    turned = turn(fit.amplitudes, math.hypot(gravity.if_present.lean, gravity.if_present.noise))
+    values, rotated = shares_of(fit.amplitudes, orders), shares_of(turned, orders)
     for axis, name in enumerate(AXES):
         share, phase = values[name], values[f"{name}_phase"]
-        own = variance(noise.amplitude[axis]) + noise.added[axis], variance(noise.phase[axis]) + noise.added[axis]
+        variances = variance(noise.amplitude[axis]) + noise.added[axis], variance(noise.phase[axis]) + noise.added[axis]
         # A wrong mount shows harmonics of one axis in the other.
         leaked = np.abs(turned[axis] / fit.amplitudes[axis] - 1.0)[1:] ** 2
         systematic = 2.0 * noise.added[axis, 1:] + leaked
@@ -247,13 +249,13 @@ def harmonics(fit: Fit, noise: Noise, gravity: Gravity = NO_GRAVITY) -> dict[str
             power = noise.power[axis, 1:, :window]
             limit = f_distribution.isf(CHANCE / max(tests, 1), 2, 4 * power.shape[-1])
             above &= limit * (power.mean(axis=-1) + systematic) < 1.0
-        relative = noise.student * np.sqrt(own[0][1:] + own[0][0])
+        relative = noise.student * np.sqrt(variances[0][1:] + variances[0][0])
         columns[name] = share
-        columns[f"{name}_stderr"] = np.hypot(share * relative * np.where(above, 1.0, BELOW), others[name] - share)
+        columns[f"{name}_stderr"] = np.hypot(share * relative * np.where(above, 1.0, BELOW), rotated[name] - share)
         columns[f"{name}_phase"] = phase
         of_zero = variance(noise.phase[1])[0] + noise.added[1, 0]
-        error = noise.student * np.sqrt(own[1][1:] + orders**2 * of_zero)
-        error = np.hypot(error, wrap(others[f"{name}_phase"] - phase))
+        error = noise.student * np.sqrt(variances[1][1:] + orders**2 * of_zero)
+        error = np.hypot(error, wrap(rotated[f"{name}_phase"] - phase))
         # A harmonic below the noise may have any phase.
         columns[f"{name}_phase_stderr"] = np.where(above, error, math.pi / NORMAL)
         columns[f"{name}_above_noise"] = above

@@ -90,17 +90,19 @@ def first_clipped(values: np.ndarray, quantum: float) -> int | None:
     """The first sample at the largest value if the values are cut off there, else None."""
     from scipy.special import bdtrc
 
-    extreme, width = values.max(), max(1.5 * quantum, NEAR * np.ptp(values))
-    at = values >= extreme - 1e-9 * np.ptp(values)
-    near = np.count_nonzero((values >= extreme - width) & ~at)
-    count, plateaus = np.count_nonzero(at), np.count_nonzero(np.diff(at.astype(np.int8), prepend=0) == 1)
+    extreme = values.max()
+    width = max(1.5 * quantum, NEAR * np.ptp(values))
+    at_extreme = values >= extreme - 1e-9 * np.ptp(values)
+    near = np.count_nonzero((values >= extreme - width) & ~at_extreme)
+    count = np.count_nonzero(at_extreme)
+    plateaus = np.count_nonzero(np.diff(at_extreme.astype(np.int8), prepend=0) == 1)
     # Samples of every cycle at the same phases repeat an extreme value, too, but then all values repeat.
-    is_varied = len(np.unique(values[~at])) > 0.5 * len(values)
+    is_varied = len(np.unique(values[~at_extreme])) > 0.5 * len(values)
     # A wave whose extreme is flat to the third order has this share of the values of the strip within half a step.
     share = (0.5 * quantum / width) ** 0.25
     is_spike = is_varied and bdtrc(count - 1, count + near, share) < CHANCE_OF_FLAT
     is_flat = count >= PLATEAU * plateaus or (is_spike and count >= FLAT * len(values))
-    return int(np.argmax(at)) if plateaus > 1 and is_flat and count > SPIKE * near else None
+    return int(np.argmax(at_extreme)) if plateaus > 1 and is_flat and count > SPIKE * near else None
 
 
 def clipped(readings: np.ndarray, quantum: float) -> int | None:
@@ -115,11 +117,11 @@ def repeated_value(readings: np.ndarray) -> float | None:
     Where most values are different, noise hardly repeats one.
     """
     values, counts = np.unique(readings, return_counts=True)
-    most = int(np.argmax(np.where((values > values[0]) & (values < values[-1]), counts, 0)))
-    near = counts[max(most - NEIGHBOURS, 0) : most + NEIGHBOURS + 1]
-    usual = (near.sum() - counts[most]) / (len(near) - 1)
+    commonest = int(np.argmax(np.where((values > values[0]) & (values < values[-1]), counts, 0)))
+    near = counts[max(commonest - NEIGHBOURS, 0) : commonest + NEIGHBOURS + 1]
+    usual = (near.sum() - counts[commonest]) / (len(near) - 1)
     is_varied = len(values) > 0.5 * len(readings)
-    return float(values[most]) if is_varied and counts[most] > max(LEAST_FLAT, REPEATED * usual) else None
+    return float(values[commonest]) if is_varied and counts[commonest] > max(LEAST_FLAT, REPEATED * usual) else None
 
 
 def flattened(values: np.ndarray, quantum: float, gap: float) -> bool:
@@ -130,12 +132,13 @@ def flattened(values: np.ndarray, quantum: float, gap: float) -> bool:
     the w of a cosine must last longer than the largest `gap` between phases (cycles). A step of the converter,
     `quantum`, must be smaller than w, too.
     """
-    span, least = np.ptp(values), max(LEAST_FLAT, FLAT * len(values))
+    span = np.ptp(values)
+    needed = max(LEAST_FLAT, FLAT * len(values))
     shares = 0.5 ** np.arange(*HALVINGS)
     for sizes in (values.max() - values, values - values.min()):
         for width in span * shares[(np.sqrt(shares) / math.pi > GAPS * gap) & (span * shares > GAPS * quantum)]:
             near, next_to = np.count_nonzero(sizes <= width), np.count_nonzero((sizes > width) & (sizes <= 2.0 * width))
-            if near > max(least, STEEP * next_to):
+            if near > max(needed, STEEP * next_to):
                 return True
     return False
 
@@ -149,7 +152,7 @@ class Signal(NamedTuple):
 
     recording: Recording
     fitted: Fit
-    other: tuple[float, float] | None  # frequency (Hz) and amplitude (m/s²) of a line that is no harmonic
+    extra_line: tuple[float, float] | None  # frequency (Hz) and amplitude (m/s²) of a line that is no harmonic
     modulation: Modulation
     settings: Mapping[str, Any]  # of the section `excitation`, with `inclination` and `frequency`, if it is stated
 
@@ -164,8 +167,8 @@ class Signal(NamedTuple):
 
     def jump(self, part: str) -> Jump | None:
         """The jump of the phase (`imag`) or of the amplitude (`real`), if there is one alone."""
-        found = jump_of(self.time, getattr(errors_of(self.time, self.fitted), part))
-        return found if found.is_alone and found.is_found(CHANCE) else None
+        jump = jump_of(self.time, getattr(errors_of(self.time, self.fitted), part))
+        return jump if jump.is_alone and jump.is_found(CHANCE) else None
 
     @property
     def sizes(self) -> np.ndarray:
@@ -187,7 +190,8 @@ def gap_faults(recording: Recording) -> Iterator[Fault]:
 def reading_faults(recording: Recording) -> Iterator[Fault]:
     """A column that is constant, has an outlier, has one value again and again, or is cut off."""
     for key, readings in zip(recording.columns, recording.readings, strict=True):
-        name, scale = recording.names[key].lstrip("-"), UNITS[recording.unit]
+        name = recording.names[key].lstrip("-")
+        scale = UNITS[recording.unit]
         if np.ptp(readings) == 0.0:
             yield f"has the same value in every line of the column {name}; check the sensor and its channel"
             return
@@ -274,7 +278,8 @@ def interpolation_faults(signal: Signal) -> Iterator[Fault]:
 
 def subharmonic_faults(signal: Signal) -> Iterator[Fault]:
     """A fundamental that may be a weak subharmonic of the drive: every second (third, fourth) cycle differs."""
-    frequency, sizes = signal.fitted.frequency, np.hypot(*np.abs(signal.fitted.amplitudes))
+    frequency = signal.fitted.frequency
+    sizes = np.hypot(*np.abs(signal.fitted.amplitudes))
     order = 1 + int(np.argmax(sizes))
     drive = order * frequency
     cycle = CYCLES.get(order)
@@ -285,12 +290,12 @@ def subharmonic_faults(signal: Signal) -> Iterator[Fault]:
             f"vibrates at {drive:.5g} Hz and every {cycle} cycle differs, record the plate without parts"
         )
         return
-    order = round(frequency / signal.other[0]) if signal.other else 0
-    if order in CYCLES and abs(order * signal.other[0] - frequency) < 1.0 / duration_of(signal.time):
+    order = round(frequency / signal.extra_line[0]) if signal.extra_line else 0
+    if order in CYCLES and abs(order * signal.extra_line[0] - frequency) < 1.0 / duration_of(signal.time):
         yield (
             f"differs in every {CYCLES[order]} cycle: it vibrates at {frequency:.5g} Hz and, with "
-            f"{signal.other[1]:.2g} m/s², at {signal.other[0]:.5g} Hz, as where parts bounce on the plate, or a magnet "
-            "is fed unevenly; record the plate without parts, and mend the feed of the magnet"
+            f"{signal.extra_line[1]:.2g} m/s², at {signal.extra_line[0]:.5g} Hz, as where parts bounce on the plate, "
+            "or a magnet is fed unevenly; record the plate without parts, and mend the feed of the magnet"
         )
 
 
@@ -324,9 +329,9 @@ def or_harmonic(signal: Signal) -> str:
 
 def sampling_faults(signal: Signal) -> Iterator[Fault]:
     """Samples that are lost, or whose times are wrong."""
-    found = signal.modulation
-    line = timing_line(signal.time, signal.fitted, found)
-    if line and line[0] * signal.rate < 0.25 * signal.fitted.frequency and not is_sawtooth(found, line[0]):
+    modulation = signal.modulation
+    line = timing_line(signal.time, signal.fitted, modulation)
+    if line and line[0] * signal.rate < 0.25 * signal.fitted.frequency and not is_sawtooth(modulation, line[0]):
         yield (
             f"has a phase that swings by {line[1]:.2g} rad at {line[0] * signal.rate:.3g} Hz: the drive hunts, or the "
             "times are not those of the samples; keep a piece in which the drive runs steadily, or record the time of "
@@ -353,13 +358,13 @@ def sampling_faults(signal: Signal) -> Iterator[Fault]:
             f"it, so that the frequency would be wrong by {abs(jump.shift):.2g} Hz; keep a piece without the jump, or "
             "record without losses",
         )
-    elif (lost := losses_of(signal.time, signal.fitted, found)).is_sure:
+    elif (lost := losses_of(signal.time, signal.fitted, modulation)).is_sure:
         yield (
             f"has a phase that jumps, as where about {max(lost.count, 1.0):.0f} samples are lost and the times do not "
             "show it, so that its frequency is wrong; record without losses, or with the time of each sample"
         )
-    elif found.scatter > MOST_SCATTER:
-        scatter = found.scatter / (2.0 * math.pi * signal.fitted.frequency)
+    elif modulation.scatter > MOST_SCATTER:
+        scatter = modulation.scatter / (2.0 * math.pi * signal.fitted.frequency)
         yield (
             f"has times that differ by {scatter:.2g} s (standard deviation) from those of the samples; record the "
             "time of each sample, or, if the sensor measures evenly, state excitation.rate (Hz)"
@@ -382,7 +387,7 @@ def sensor_faults(signal: Signal) -> Iterator[Fault]:
             for part in parts
         )
         change = float(np.hypot(*(last.offsets - first.offsets)))
-        noise = math.sqrt(sum((one.residual**2).mean() / one.residual.shape[1] for one in (first, last)))
+        noise = math.sqrt(sum((part_fit.residual**2).mean() / part_fit.residual.shape[1] for part_fit in (first, last)))
         if change > LEAST_CHANGE * STANDARD_GRAVITY + SURE * noise:
             yield (
                 int(recording.lines[jump.sample]),
@@ -435,14 +440,14 @@ def ambiguity_faults(signal: Signal) -> Iterator[Fault]:
     frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
     if stated and abs(frequency / stated - 1.0) < OTHER_FREQUENCY:
         return
-    for other in signal.recording.others:
-        time = other.time[:CHECKED]
-        found = first_fit(time, other.acceleration[:, :CHECKED], stated)[0].frequency
-        if abs(found - frequency) > DIFFERENT / duration_of(time):
+    for alternative in signal.recording.others:
+        time = alternative.time[:CHECKED]
+        other_frequency = first_fit(time, alternative.acceleration[:, :CHECKED], stated)[0].frequency
+        if abs(other_frequency - frequency) > DIFFERENT / duration_of(time):
             yield (
-                f"fits a drive of {frequency:.5g} Hz and, with other times of its samples, one of {found:.5g} Hz; "
-                f"state model.frequency, and excitation.rate: {(len(time) - 1) / np.ptp(time):.5g} if the sensor "
-                "measures evenly"
+                f"fits a drive of {frequency:.5g} Hz and, with other times of its samples, one of "
+                f"{other_frequency:.5g} Hz; state model.frequency, and excitation.rate: "
+                f"{(len(time) - 1) / np.ptp(time):.5g} if the sensor measures evenly"
             )
             return
 
@@ -476,18 +481,19 @@ def phase_faults(signal: Signal) -> Iterator[Fault]:
 
 def steadiness_faults(signal: Signal) -> Iterator[Fault]:
     """An amplitude that changes, or a second vibration."""
-    frequency, other = signal.fitted.frequency, signal.other
+    frequency = signal.fitted.frequency
+    extra_line = signal.extra_line
     steady = steadiness(signal.time, signal.fitted)
     if is_unsteady(steady):
         yield (
             f"is not steady: its amplitude at {frequency:.4g} Hz varies by {100.0 * steady['deviation']:.2g} % "
             "(standard deviation); keep a piece in which the drive runs steadily, and record one drive alone"
         )
-    elif other:
+    elif extra_line:
         yield (
-            f"vibrates at {frequency:.4g} Hz and, with {other[1]:.2g} m/s², at {other[0]:.4g} Hz, no multiple of it; "
-            "record one drive alone, and use the sensor's anti-aliasing filter, because a harmonic above half the "
-            "sampling rate looks like such a line"
+            f"vibrates at {frequency:.4g} Hz and, with {extra_line[1]:.2g} m/s², at {extra_line[0]:.4g} Hz, no "
+            "multiple of it; record one drive alone, and use the sensor's anti-aliasing filter, because a harmonic "
+            "above half the sampling rate looks like such a line"
         )
 
 
@@ -524,7 +530,8 @@ def frequency_faults(signal: Signal) -> Iterator[Fault]:
 
 def unit_faults(signal: Signal) -> Iterator[Fault]:
     """A mean that is not gravity, or an amplitude that no conveyor has."""
-    unit, acceleration = signal.recording.unit, float(np.hypot(*signal.sizes))
+    unit = signal.recording.unit
+    acceleration = float(np.hypot(*signal.sizes))
     gravity = gravity_of(signal.fitted, signal.settings.get("inclination", 0.0))
     converted = f", which is {acceleration:.4g} m/s²" if UNITS[unit] != 1.0 else ""
     shown = f"vibrates with {acceleration / UNITS[unit]:.4g} {unit}{converted}"
@@ -541,7 +548,8 @@ def unit_faults(signal: Signal) -> Iterator[Fault]:
 
 def share_faults(signal: Signal) -> Iterator[Fault]:
     """A fundamental that is missing, or too weak for its harmonics."""
-    fitted, sizes, directions = signal.fitted, signal.sizes, list(DIRECTIONS.values())
+    fitted, sizes = signal.fitted, signal.sizes
+    directions = list(DIRECTIONS.values())
     noise = np.sqrt(4.0 * (fitted.residual**2).mean(axis=1) / fitted.residual.shape[1])
     for axis, direction in enumerate(directions):
         if sizes[axis] < max(NO_FUNDAMENTAL * np.hypot(*sizes), 4.0 * noise[axis]):
@@ -582,25 +590,26 @@ OF_SIGNAL = (
 def signal_of(recording: Recording, settings: Mapping[str, Any], samples: int = CHECKED) -> Signal:
     """The first samples of a recording, with their fit."""
     time = recording.time[:samples]
-    fitted, other = first_fit(time, recording.acceleration[:, :samples], settings.get("frequency"))
-    return Signal(recording, fitted, other, modulation_of(time, fitted), settings)
+    fitted, extra_line = first_fit(time, recording.acceleration[:, :samples], settings.get("frequency"))
+    return Signal(recording, fitted, extra_line, modulation_of(time, fitted), settings)
 
 
 def later_faults(
-    recording: Recording, fitted: Fit, other: tuple[float, float] | None, settings: Mapping[str, Any]
+    recording: Recording, fitted: Fit, extra_line: tuple[float, float] | None, settings: Mapping[str, Any]
 ) -> list[tuple[int | None, str]]:
     """The faults behind the samples that `checked` has seen, in pieces, and changes between pieces.
 
-    fitted, other : of the whole recording, see `Signal`
+    fitted, extra_line : of the whole recording, see `Signal`
     """
-    count, place = len(recording.time), np.arange(len(recording.time))
+    count = len(recording.time)
+    place = np.arange(len(recording.time))
     length = max(CHECKED, math.ceil(2 * LEAST_CYCLES * sampling_rate(recording.time) / fitted.frequency))
     for end in [*range(CHECKED + length, count, length), count] if count > CHECKED else ():
         piece = keep(recording, (place >= end - length) & (place < end))._replace(others=())
         if faults := first_faults(signal_of(piece, settings, length), OF_SIGNAL[1:]):
             lines = f"in the lines {piece.lines[0]:,} to {piece.lines[-1]:,}, it"
             return [(line, fault if line else f"{lines} {fault}") for line, fault in faults]
-    whole = Signal(recording, fitted, other, modulation_of(recording.time, fitted), settings)
+    whole = Signal(recording, fitted, extra_line, modulation_of(recording.time, fitted), settings)
     return first_faults(whole, ((phase_faults,), (steadiness_faults,)))
 
 

@@ -46,7 +46,7 @@ class Gravity(NamedTuple):
     noise: float  # standard error of both
 
     @property
-    def found(self) -> "Gravity":
+    def if_present(self) -> "Gravity":
         """The same with no deviation and no noise if there is no gravity to compare with."""
         return self if self.present else NO_GRAVITY
 
@@ -94,7 +94,8 @@ def size_fault(gravity: Gravity, acceleration: float, unit: str) -> str | None:
 
 def fitting_columns(recording: Recording, means: np.ndarray, mount: float, inclination: float) -> list[str]:
     """The entries `excitation.columns` with which gravity would have its direction: mirrored or exchanged axes."""
-    keys, found = recording.columns, []
+    keys = recording.columns
+    entries = []
     for swapped in (False, True):
         for signs in ((1, -1), (-1, 1), (-1, -1)) if not swapped else ((1, 1), (1, -1), (-1, 1), (-1, -1)):
             order = (1, 0) if swapped else (0, 1)
@@ -105,8 +106,8 @@ def fitting_columns(recording: Recording, means: np.ndarray, mount: float, incli
             for key, sign in zip(keys, signs, strict=True):
                 name = names[key]
                 names[key] = name if sign > 0 else name[1:] if name.startswith("-") else f"-{name}"
-            found.append(columns_entry({**recording.names, **names}))
-    return found
+            entries.append(columns_entry({**recording.names, **names}))
+    return entries
 
 
 def direction_fault(recording: Recording, gravity: Gravity, settings: Mapping[str, Any]) -> str | None:

@@ -71,7 +71,8 @@ def design_of(time: np.ndarray, half: float, frequency: float, orders: int) -> n
 
     time, half : times from the middle of the recording, and half of its duration, s
     """
-    design, first = np.empty((2 + 2 * orders, len(time))), np.exp(2j * math.pi * frequency * time)
+    design = np.empty((2 + 2 * orders, len(time)))
+    first = np.exp(2j * math.pi * frequency * time)
     cosines, sines = design[2 : 2 + orders], design[2 + orders :]
     design[0], design[1], cosines[0], sines[0] = 1.0, time / half, first.real, first.imag
     for k in range(1, orders):
@@ -90,23 +91,24 @@ def project(
     """
     parts = [slice(begin, begin + BLOCK) for begin in range(0, len(time), BLOCK)]
     size = 2 + 2 * orders
-    gram, products, rest = np.zeros((size, size)), np.zeros((size, len(signals))), np.empty_like(signals)
+    gram, products = np.zeros((size, size)), np.zeros((size, len(signals)))
+    remainder = np.empty_like(signals)
     for part in parts:
         design = design_of(time[part], time[-1], frequency, orders)
         gram += design @ design.T
         products += design @ signals[:, part].T
     values = np.linalg.solve(gram, products)
-    each = 2.0 * math.pi * np.arange(1, orders + 1)[:, None]
+    angular_orders = 2.0 * math.pi * np.arange(1, orders + 1)[:, None]
     cosines, sines = values[2 : 2 + orders], values[2 + orders :]
-    turned = np.vstack([each * sines, -each * cosines])  # of the cosines and of the sines
+    turned = np.vstack([angular_orders * sines, -angular_orders * cosines])  # of the cosines and of the sines
     for part in parts:
         if len(parts) > 1:  # a single part still has its design
             design = design_of(time[part], time[-1], frequency, orders)
         if slopes:
-            rest[:, part] = time[part] * (turned.T @ design[2:])
+            remainder[:, part] = time[part] * (turned.T @ design[2:])
         else:
-            rest[:, part] = signals[:, part] - values.T @ design
-    return values, rest
+            remainder[:, part] = signals[:, part] - values.T @ design
+    return values, remainder
 
 
 def spectrum(time: np.ndarray, signals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -114,11 +116,12 @@ def spectrum(time: np.ndarray, signals: np.ndarray) -> tuple[np.ndarray, np.ndar
 
     Uneven samples are interpolated, and gaps are left out, which only spectra for the eye and first estimates may do.
     """
-    count, is_gap = round((time[-1] - time[0]) * sampling_rate(time)) + 1, gaps_of(time)[1]
+    count = round((time[-1] - time[0]) * sampling_rate(time)) + 1
+    is_gap = gaps_of(time)[1]
     even, spacing = np.linspace(time[0], time[-1], count, retstep=True)
     window = np.hanning(count) * ~is_gap[np.clip(np.searchsorted(time, even) - 1, 0, len(is_gap) - 1)]
     length = PADDING * 2 ** math.ceil(math.log2(count))
-    values = np.array([np.interp(even, time, one - one.mean()) for one in signals])
+    values = np.array([np.interp(even, time, signal - signal.mean()) for signal in signals])
     frequencies = np.fft.rfftfreq(length, spacing)
     return frequencies, 2.0 / window.sum() * np.abs(np.fft.rfft(window * values, length))
 
@@ -136,7 +139,8 @@ def fit(time: np.ndarray, signals: np.ndarray, guess: float, orders: int) -> Fit
     """The frequency near a first estimate (Hz), and the harmonics; `signals` has the shape (2, n)."""
     from scipy.optimize import least_squares
 
-    resolution, middle = 1.0 / duration_of(time), 0.5 * (time[0] + time[-1])
+    resolution = 1.0 / duration_of(time)
+    middle = 0.5 * (time[0] + time[-1])
     centred = time - middle
 
     def residual(shift: np.ndarray) -> np.ndarray:
@@ -151,9 +155,9 @@ def fit(time: np.ndarray, signals: np.ndarray, guess: float, orders: int) -> Fit
     options = {"xtol": 1e-10, "ftol": 1e-12, "gtol": None, "max_nfev": 12}
     minimum = least_squares(residual, [0.0], jacobian, bounds=(-SEARCHED, SEARCHED), **options)
     frequency = guess + float(minimum.x[0]) * resolution
-    values, rest = project(centred, signals, frequency, orders)
+    values, remainder = project(centred, signals, frequency, orders)
     amplitudes = (values[2 : 2 + orders] - 1j * values[2 + orders :]).T
-    return Fit(frequency, middle, amplitudes, values[0], rest)
+    return Fit(frequency, middle, amplitudes, values[0], remainder)
 
 
 def steadiness(time: np.ndarray, fitted: Fit) -> dict[str, float]:
@@ -187,13 +191,13 @@ def further_line(time: np.ndarray, fitted: Fit) -> tuple[float, float] | None:
     resolution = 1.0 / duration_of(time)
     multiple = np.round(frequencies / fitted.frequency)
     # Where an amplitude drifts, its line has a foot.
-    own = (np.abs(frequencies - multiple * fitted.frequency) < FOOT * resolution) & (multiple > 0.0)
-    searched = ~own & (frequencies > max(fitted.frequency / (MOST_SUBHARMONIC + 0.5), 3.0 * resolution))
+    is_harmonic = (np.abs(frequencies - multiple * fitted.frequency) < FOOT * resolution) & (multiple > 0.0)
+    searched = ~is_harmonic & (frequencies > max(fitted.frequency / (MOST_SUBHARMONIC + 0.5), 3.0 * resolution))
     if not searched.any():
         return None
     # Coloured noise is strong only near some frequencies, so its median nearby counts.
     # Axis by axis, because SciPy filters a single dimension twenty times as fast.
-    noise = np.array([median_filter(one, NEARBY * PADDING, mode="nearest") for one in amplitudes])
+    noise = np.array([median_filter(channel, NEARBY * PADDING, mode="nearest") for channel in amplitudes])
     shares = amplitudes / np.abs(fitted.amplitudes[:, :1])
     counts = searched & (amplitudes**2 > OUT_OF_NOISE * noise**2) & (shares > SHARE)
     axis, place = np.unravel_index(np.argmax(np.where(counts, shares, 0.0)), shares.shape)
@@ -216,11 +220,11 @@ def first_fit(time: np.ndarray, signals: np.ndarray, stated: float | None = None
         return fit(time, signals, guess, min(CHECKED_ORDERS, orders_of(rate, guess)))
 
     model = fitted(strongest(time, signals)[0])
-    other = further_line(time, model)
+    extra_line = further_line(time, model)
     # The strongest line may be a harmonic of a weaker fundamental.
-    for order in range(2, MOST_SUBHARMONIC + 1) if other else ():
+    for order in range(2, MOST_SUBHARMONIC + 1) if extra_line else ():
         is_stated = stated and stated > model.frequency / math.sqrt(order)
-        if abs(order * other[0] - model.frequency) < 1.0 / duration_of(time) and not is_stated:
+        if abs(order * extra_line[0] - model.frequency) < 1.0 / duration_of(time) and not is_stated:
             model = fitted(model.frequency / order)
             return model, further_line(time, model)
-    return model, other
+    return model, extra_line

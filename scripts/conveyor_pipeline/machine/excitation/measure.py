@@ -45,13 +45,13 @@ def by_axis(name: str, unit: str, description: str) -> tuple:
 
 def share_fields(axis: str) -> tuple:
     """The columns of the harmonics of one axis."""
-    of = f"harmonic {DIRECTIONS[axis]}"
+    name = f"harmonic {DIRECTIONS[axis]}"
     return (
-        fields.number(axis, "1", f"amplitude of the {of}, over the fundamental of this axis"),
+        fields.number(axis, "1", f"amplitude of the {name}, over the fundamental of this axis"),
         fields.number(f"{axis}_stderr", "1", "its standard error"),
-        fields.number(f"{axis}_phase", "rad", f"phase of the {of}; the fundamental normal to the track has phase 0"),
+        fields.number(f"{axis}_phase", "rad", f"phase of the {name}; the fundamental normal to the track has phase 0"),
         fields.number(f"{axis}_phase_stderr", "rad", "its standard error; 1.6 for any phase"),
-        fields.flag(f"{axis}_above_noise", f"whether the {of} is above the noise"),
+        fields.flag(f"{axis}_above_noise", f"whether the {name} is above the noise"),
     )
 
 
@@ -118,9 +118,9 @@ def loss_error(recording: Recording, fitted: Fit) -> float:
     jump = jump_of(recording.time, errors_of(recording.time, fitted).imag)
     time = recording.time[:CHECKED]
     part = fitted._replace(residual=fitted.residual[:, :CHECKED])
-    most = losses_of(time, part, modulation_of(time, part)).most
+    most_losses = losses_of(time, part, modulation_of(time, part)).upper_limit
     shift = jump.shift / fitted.frequency if jump.is_found(UNSURE) else 0.0
-    return math.hypot(shift, most / NORMAL / len(time) if most > 1.0 else 0.0)
+    return math.hypot(shift, most_losses / NORMAL / len(time) if most_losses > 1.0 else 0.0)
 
 
 def rounded(columns: dict) -> dict:
@@ -178,14 +178,15 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
     table = csv_table.parse(measured, settings["measured"], wanted(settings), HEADER_UNITS, EXAMPLE)
     recording = resolve(parse(table, settings))
     rate = sampling_rate(recording.time)
-    first, other = first_fit(recording.time, recording.acceleration)
-    if faults := later_faults(recording, first, other, settings):
+    first, extra_line = first_fit(recording.time, recording.acceleration)
+    if faults := later_faults(recording, first, extra_line, settings):
         raise table.error(faults)
     orders = orders_of(rate, first.frequency)
-    fitted, *others = (
-        fit(one.time, one.acceleration, first.frequency, orders) for one in (recording, *recording.others)
+    fitted, *other_fits = (
+        fit(version.time, version.acceleration, first.frequency, orders) for version in (recording, *recording.others)
     )
-    noise, gravity = noise_of(recording, fitted, tuple(others)), gravity_of(fitted, settings["inclination"])
+    noise = noise_of(recording, fitted, tuple(other_fits))
+    gravity = gravity_of(fitted, settings["inclination"])
     rate_error = math.hypot(recording.rate_error, loss_error(recording, fitted))
     shares = harmonics(fitted, noise, gravity)
     above = np.array([shares[f"{axis}_above_noise"] for axis in AXES])
@@ -204,8 +205,8 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
         "lean": gravity.lean,
         "sampling_rate": rate,
         "cycles": fitted.frequency * duration_of(recording.time),
-        "other_frequency": other[0] if other else math.nan,
-        "other_amplitude": other[1] if other else math.nan,
+        "other_frequency": extra_line[0] if extra_line else math.nan,
+        "other_amplitude": extra_line[1] if extra_line else math.nan,
         **steadiness(recording.time, fitted),
     }
     for axis, name in enumerate(AXES):

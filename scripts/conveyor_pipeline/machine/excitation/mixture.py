@@ -27,8 +27,8 @@ def mixture_of(time: np.ndarray, signals: np.ndarray, fitted: Fit) -> float | No
         parts = (~is_second, is_second)
         if min(map(np.count_nonzero, parts)) < max(LEAST_LINES * len(time), 2 * len(design)):
             return None
-        both = [np.linalg.lstsq(design[:, part].T, signals[:, part].T, rcond=None)[0] for part in parts]
-        errors = np.array([((signals - one.T @ design) ** 2).sum(axis=0) for one in both])
+        solutions = [np.linalg.lstsq(design[:, part].T, signals[:, part].T, rcond=None)[0] for part in parts]
+        errors = np.array([((signals - solution.T @ design) ** 2).sum(axis=0) for solution in solutions])
         is_second = errors[1] < errors[0]
     # Where the signal is small, both fits are equally near.
     is_clear = np.abs(errors[1] - errors[0]) > np.median(np.abs(errors[1] - errors[0]))
@@ -42,5 +42,5 @@ def mixture_of(time: np.ndarray, signals: np.ndarray, fitted: Fit) -> float | No
     halves = project(centred, fitted.residual, 0.5 * fitted.frequency, 2 * orders)[1]
     if (halves**2).sum() < 0.5 * sizes.sum():
         return None
-    first, second = (np.hypot(one[2], one[2 + fitted.orders]) for one in both)
+    first, second = (np.hypot(solution[2], solution[2 + fitted.orders]) for solution in solutions)
     return float(np.abs(second / first - 1.0).max())

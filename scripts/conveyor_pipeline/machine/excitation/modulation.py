@@ -69,16 +69,17 @@ def modulation_of(time: np.ndarray, fitted: Fit) -> Modulation:
     """The errors that the fundamental leaves."""
     count = 2 * (len(time) // 2)
     first = np.exp(2j * math.pi * fitted.frequency * (time[:count] - fitted.middle))
-    wave, rest = first.copy(), fitted.residual[:, :count].copy()
+    wave = first.copy()
+    remainder = fitted.residual[:, :count].copy()
     for order in range(1, fitted.orders):
         wave *= first
-        rest += (fitted.amplitudes[:, order, None] * wave).real
+        remainder += (fitted.amplitudes[:, order, None] * wave).real
     size = 0.5 * np.abs(fitted.amplitudes[:, 0]) ** 2
     # Real part: error of the amplitude; imaginary part: of the phase.
-    products = rest * np.conj(fitted.amplitudes[:, :1] * first)
+    products = remainder * np.conj(fitted.amplitudes[:, :1] * first)
     window = np.hanning(count)
-    both = products.sum(axis=0) / size.sum()
-    gain, phase = (np.abs(np.fft.rfft(window * part)) * 2.0 / window.sum() for part in (both.real, both.imag))
+    errors = products.sum(axis=0) / size.sum()
+    gain, phase = (np.abs(np.fft.rfft(window * part)) * 2.0 / window.sum() for part in (errors.real, errors.imag))
     sign = window * np.where(np.arange(count) % 2 == 0, 1.0, -1.0) / window.sum()
     alternating = np.array([(sign * part).sum(axis=1) / size for part in (products.real, products.imag)]).T
     noise = np.sqrt((fitted.residual**2).mean(axis=1) / size) * math.sqrt((window**2).sum()) / window.sum()
@@ -89,18 +90,18 @@ def modulation_of(time: np.ndarray, fitted: Fit) -> Modulation:
     return Modulation(np.fft.rfftfreq(count), phase, gain, alternating, noise, scatter, spread)
 
 
-def timing_line(time: np.ndarray, fitted: Fit, found: Modulation) -> tuple[float, float] | None:
+def timing_line(time: np.ndarray, fitted: Fit, modulation: Modulation) -> tuple[float, float] | None:
     """Frequency (cycles per sample) and amplitude (rad) of the strongest error of the phase that no vibration makes."""
     count, drive = 2 * (len(time) // 2), fitted.frequency / sampling_rate(time)
     width = max(1, math.ceil(FOOT))
-    near = np.max([np.roll(found.gain, shift) for shift in range(-width, width + 1)], axis=0)
-    own = np.abs(found.frequency - np.round(found.frequency / drive) * drive) * count < FOOT
-    least = np.maximum(LOST * 2.0 * math.pi * drive, np.where(found.frequency < 0.25 * drive, LEAST_PHASE, 0.0))
-    counts = found.phase > np.where(own, LOCKED, ONE_SIDED) * near
-    counts &= (found.phase > OUT_OF_NOISE * median_nearby(found.phase)) & (found.phase > least)
-    counts &= found.frequency * count > SLOW
-    place = int(np.argmax(np.where(counts, found.phase, 0.0)))
-    return (float(found.frequency[place]), float(found.phase[place])) if counts[place] else None
+    near = np.max([np.roll(modulation.gain, shift) for shift in range(-width, width + 1)], axis=0)
+    is_harmonic = np.abs(modulation.frequency - np.round(modulation.frequency / drive) * drive) * count < FOOT
+    smallest = np.maximum(LOST * 2.0 * math.pi * drive, np.where(modulation.frequency < 0.25 * drive, LEAST_PHASE, 0.0))
+    counts = modulation.phase > np.where(is_harmonic, LOCKED, ONE_SIDED) * near
+    counts &= (modulation.phase > OUT_OF_NOISE * median_nearby(modulation.phase)) & (modulation.phase > smallest)
+    counts &= modulation.frequency * count > SLOW
+    place = int(np.argmax(np.where(counts, modulation.phase, 0.0)))
+    return (float(modulation.frequency[place]), float(modulation.phase[place])) if counts[place] else None
 
 
 def loss_in_step(time: np.ndarray, signals: np.ndarray, fitted: Fit) -> int | None:
@@ -109,28 +110,33 @@ def loss_in_step(time: np.ndarray, signals: np.ndarray, fitted: Fit) -> int | No
     Such losses look like harmonics, of which those from the third on vanish with the right times.
     """
     per_cycle = sampling_rate(time) / fitted.frequency
-    seen = float((np.abs(fitted.amplitudes[:, 2:]) ** 2).sum())
-    if seen < LEAST_SHARE**2 * float((np.abs(fitted.amplitudes[:, 0]) ** 2).sum()):
+    harmonic_power = float((np.abs(fitted.amplitudes[:, 2:]) ** 2).sum())
+    if harmonic_power < LEAST_SHARE**2 * float((np.abs(fitted.amplitudes[:, 0]) ** 2).sum()):
         return None
-    rest, part = (fitted.residual**2).mean(), signals[:, :TRIED]
-    numbers, interval = np.arange(part.shape[1]), 1.0 / sampling_rate(time)
+    residual_power = (fitted.residual**2).mean()
+    part = signals[:, :TRIED]
+    numbers = np.arange(part.shape[1])
+    interval = 1.0 / sampling_rate(time)
     for losses in range(1, MOST_LOSSES + 1):
         between = round(per_cycle / losses)
         slip = abs(between * losses / per_cycle - 1.0) * fitted.frequency * duration_of(time)
         for first in range(between) if between >= LEAST_BETWEEN and slip < 1.0 else ():
             right = interval * (numbers + (numbers + first) // between)
             frequency = fitted.frequency * between / (between + 1.0)
-            values, left = project(right - 0.5 * (right[0] + right[-1]), part, frequency, fitted.orders)
+            values, residual = project(right - 0.5 * (right[0] + right[-1]), part, frequency, fitted.orders)
             harmonics = values[2:].reshape(2, fitted.orders, 2)[:, 2:]
-            if (harmonics**2).sum() < VANISHED * seen and (left**2).mean() < KEPT * rest:
+            if (harmonics**2).sum() < VANISHED * harmonic_power and (residual**2).mean() < KEPT * residual_power:
                 return between + 1
     return None
 
 
-def is_sawtooth(found: Modulation, frequency: float) -> bool:
+def is_sawtooth(modulation: Modulation, frequency: float) -> bool:
     """Whether an error of the phase with a frequency (cycles per sample) rises slowly and falls at once, as by a sample
     that is lost again and again: twice this frequency has half of its amplitude, and none if a drive hunts."""
-    sizes = [found.phase[np.abs(found.frequency - times * frequency) < 1.5 / found.count].max() for times in (1, 2)]
+    sizes = [
+        modulation.phase[np.abs(modulation.frequency - times * frequency) < 1.5 / modulation.count].max()
+        for times in (1, 2)
+    ]
     return bool(sizes[1] > 0.25 * sizes[0])
 
 
@@ -144,22 +150,22 @@ def order_at_half(time: np.ndarray, fitted: Fit) -> int | None:
     return round(multiple) if away < FOOT and round(multiple) <= HALF_RATE else None
 
 
-def alternates(found: Modulation) -> float | None:
+def alternates(modulation: Modulation) -> float | None:
     """Half of the relative difference of the amplitudes of every first and every second sample, or None."""
-    gain, phase = np.abs(found.alternating).T
+    gain, phase = np.abs(modulation.alternating).T
     counts = (gain > LEAST_GAIN) & (gain > ALTERNATING * phase)
-    return float(gain.max()) if counts.all() and (gain > 8.0 * found.alternating_noise).any() else None
+    return float(gain.max()) if counts.all() and (gain > 8.0 * modulation.alternating_noise).any() else None
 
 
 class Losses(NamedTuple):
     """Samples that seem to be lost between times that do not show it."""
 
     count: float
-    most: float  # 95 % upper limit
+    upper_limit: float  # 95 % upper limit
     is_sure: bool  # whether no noise looks like it
 
 
-def losses_of(time: np.ndarray, fitted: Fit, found: Modulation) -> Losses:
+def losses_of(time: np.ndarray, fitted: Fit, modulation: Modulation) -> Losses:
     """About how many samples are lost at random.
 
     Each loss turns the phase by 2π d, with d the drive's frequency in cycles per sample. If the share p of the samples
@@ -169,13 +175,17 @@ def losses_of(time: np.ndarray, fitted: Fit, found: Modulation) -> Losses:
     from scipy.special import chdtri
 
     count, drive = 2 * (len(time) // 2), fitted.frequency / sampling_rate(time)
-    lowest, highest = max(JUMPS[0] * drive, min(SLOW / count, SHORT * drive)), JUMPS[1] * drive
-    band = (found.frequency >= lowest) & (found.frequency < highest)
-    lines, noise = np.count_nonzero(band), found.frequency > ABOVE_JUMPS * drive
-    phase, gain = (np.median(values[band] ** 2) for values in (found.phase, found.gain))
-    floor = np.median(found.phase[noise] ** 2)
+    lowest = max(JUMPS[0] * drive, min(SLOW / count, SHORT * drive))
+    highest = JUMPS[1] * drive
+    band = (modulation.frequency >= lowest) & (modulation.frequency < highest)
+    lines = np.count_nonzero(band)
+    noise = modulation.frequency > ABOVE_JUMPS * drive
+    phase, gain = (np.median(values[band] ** 2) for values in (modulation.phase, modulation.gain))
+    floor = np.median(modulation.phase[noise] ** 2)
     # The square of an amplitude with a Hann window is 3/N times the power per frequency.
-    share = np.median(found.frequency[band] ** 2 * (found.phase[band] ** 2 - floor)) * count / (6.0 * drive**2)
+    share = (
+        np.median(modulation.frequency[band] ** 2 * (modulation.phase[band] ** 2 - floor)) * count / (6.0 * drive**2)
+    )
     ratio = phase / max(gain, floor)
     lost = float(share * count) if ratio > ONE_SIDED else 0.0
     is_sure = lines >= LEAST_LINES and ratio > ONE_SIDED * (1.0 + MANY_LINES / lines) and lost > LEAST_LOST
@@ -226,7 +236,7 @@ def jump_of(time: np.ndarray, error: np.ndarray) -> Jump:
     place = int(np.argmax(np.where(energy > EDGE * count, sums**2 / energy, 0.0)))
     size = float(sums[place] / energy[place])
     step = (np.arange(count) > place) - after[place] / count - line[place] * centred / length
-    before, rest = (np.abs(np.fft.rfft(one)) ** 2 / count for one in (error, error - size * step))
+    before, remainder = (np.abs(np.fft.rfft(signal)) ** 2 / count for signal in (error, error - size * step))
     noise = np.median(before[SLOW_LINES : SLOW_LINES + NEARBY]) / math.log(2.0)
     slow = slice(1, SLOW_LINES)
     halves = [slice(None, count // 2), slice(count // 2, None)]
@@ -236,5 +246,5 @@ def jump_of(time: np.ndarray, error: np.ndarray) -> Jump:
         size,
         float(np.abs(slopes).max()),
         float(sums[place] ** 2 / energy[place] / noise),
-        bool(rest[slow].sum() < ALONE * before[slow].sum()),
+        bool(remainder[slow].sum() < ALONE * before[slow].sum()),
     )

@@ -12,10 +12,10 @@ def harmonics_above_noise(harmonics: pd.DataFrame) -> list[dict[str, float]]:
     """The harmonics for `model.harmonics`, at most MOST_HARMONICS, the largest ones; a share below the noise is 0."""
     rows = []
     for row in harmonics[harmonics.above_noise].to_dict("records"):
-        kept = {name: row[name] if row[f"{name.split('_')[0]}_above_noise"] else 0.0 for name in SHARES}
-        rows.append({"order": row["order"], **{name: float(f"{value:.{DIGITS}g}") for name, value in kept.items()}})
-    rows.sort(key=lambda one: -max(one["along"], one["normal"]))
-    return sorted(rows[:MOST_HARMONICS], key=lambda one: one["order"])
+        shares = {name: row[name] if row[f"{name.split('_')[0]}_above_noise"] else 0.0 for name in SHARES}
+        rows.append({"order": row["order"], **{name: float(f"{value:.{DIGITS}g}") for name, value in shares.items()}})
+    rows.sort(key=lambda harmonic: -max(harmonic["along"], harmonic["normal"]))
+    return sorted(rows[:MOST_HARMONICS], key=lambda harmonic: harmonic["order"])
 
 
 def drive_of(parameters: pd.DataFrame) -> dict[str, float]:
@@ -31,11 +31,11 @@ def make(parameters: pd.DataFrame, harmonics: pd.DataFrame) -> str:
     ]
     shares = [
         "    - {"
-        + ", ".join([f"order: {one['order']}", *(f"{name}: {one[name]:.{DIGITS - 1}e}" for name in SHARES)])
+        + ", ".join([f"order: {harmonic['order']}", *(f"{name}: {harmonic[name]:.{DIGITS - 1}e}" for name in SHARES)])
         + "}"
-        for one in harmonics_above_noise(harmonics)
+        for harmonic in harmonics_above_noise(harmonics)
     ]
-    measured = parameters.attrs["measured"]
-    head = f"# Measured: {measured}. Name this file behind the overlay that names the accelerometer file."
+    file = parameters.attrs["measured"]
+    head = f"# Measured: {file}. Name this file behind the overlay that names the accelerometer file."
     listed = ["  harmonics:", *shares] if shares else ["  harmonics: []   # none is above the noise"]
     return "\n".join([head, "model:", *lines, *listed, ""])

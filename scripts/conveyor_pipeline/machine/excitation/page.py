@@ -44,7 +44,7 @@ def make(
     fit = quality.iloc[0].to_dict()
     changes = {label: compared.change(comparison, name) for name, label in MEASURES.items()}
     hidden = hidden_shares(harmonics)
-    most = {axis: float(hidden[axis].max()) if len(hidden) else 0.0 for axis in AXES}
+    largest_hidden = {axis: float(hidden[axis].max()) if len(hidden) else 0.0 for axis in AXES}
     rows = harmonics.assign(**hidden.add_prefix("hidden_"))
     is_listed = (rows.order <= LISTED) | rows.above_noise
     return render(
@@ -56,7 +56,7 @@ def make(
             "backwards": abs(drive["phase_shift"]["value"]) > 0.5 * math.pi,
             "harmonics": rows[is_listed].to_dict("records"),
             "above": bool(harmonics.above_noise.any()),
-            "hidden": most,
+            "hidden": largest_hidden,
             "statement": STATEMENT["share"],
             "orders": int(harmonics.order.max()) if len(harmonics) else 1,
             "quality": fit,
@@ -65,7 +65,7 @@ def make(
             "other_frequency": OTHER_FREQUENCY,
             "changes": changes,
             "matters": MATTERS,
-            "verdict": verdict_of(list(changes.values()), max(most.values())),
+            "verdict": verdict_of(list(changes.values()), max(largest_hidden.values())),
             "is_change_known": compared.verdict(list(changes.values())) != compared.PERHAPS,
             "transit": comparison.attrs,
             "parts": differences(comparison.attrs)["spread"],

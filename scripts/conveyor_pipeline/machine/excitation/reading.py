@@ -103,20 +103,20 @@ def columns_entry(names: Mapping[str, str]) -> str:
 def find_columns(table: Any, settings: Mapping[str, Any]) -> tuple[dict[str, str], dict[str, int], list[str]]:
     """Names of the columns with their signs, their places in the table, and faults."""
     stated, names = settings.get("columns", {}), table.names
-    lower, there = [name.lower() for name in names], ", ".join(quote(one) for one in names)
-    found, places, faults = {}, {}, []
+    lower, listed = [name.lower() for name in names], ", ".join(quote(column) for column in names)
+    chosen, places, faults = {}, {}, []
     for key, name in stated.items():
         sign, bare = ("-", name[1:]) if name.startswith("-") and name.lower() not in lower else ("", name)
-        matches = [place for place, one in enumerate(lower) if one in spellings_of(bare)]
+        matches = [place for place, lowered in enumerate(lower) if lowered in spellings_of(bare)]
         if len(matches) == 1:
-            found[key], places[key] = sign + names[matches[0]], matches[0]
+            chosen[key], places[key] = sign + names[matches[0]], matches[0]
         elif matches:
             faults.append(f"has the column {bare!r} twice, so excitation.columns.{key} names two; rename one")
         else:
-            faults.append(f"has no column {bare!r}, which excitation.columns.{key} names; there are {there}")
-    for key, other in itertools.combinations(places, 2):
-        if places[key] == places[other]:
-            faults.append(f"has one column {names[places[key]]!r} for both {key} and {other} in excitation.columns")
+            faults.append(f"has no column {bare!r}, which excitation.columns.{key} names; there are {listed}")
+    for key, other_key in itertools.combinations(places, 2):
+        if places[key] == places[other_key]:
+            faults.append(f"has one column {names[places[key]]!r} for both {key} and {other_key} in excitation.columns")
     pairs = [pair for pair in (AXES, SENSOR) if {*pair} & {*stated}]
     if len(pairs) == 2:
         faults.append("has x, z and along, normal in excitation.columns; name one pair")
@@ -124,17 +124,17 @@ def find_columns(table: Any, settings: Mapping[str, Any]) -> tuple[dict[str, str
     if not pairs and len(exact) == 2:
         faults.append("has both along, normal and x, z; name one pair in excitation.columns")
     if faults:
-        return found, places, faults
+        return chosen, places, faults
     partial = [pair for pair in (AXES, SENSOR) if any(KNOWN[key].fullmatch(name) for key in pair for name in names)]
     pair = (pairs or exact or partial or [AXES])[0]
     missing = []
     for key in (*(() if "rate" in settings else ("time",)), *pair):
-        if key in found:
+        if key in chosen:
             continue
         free = [(place, name) for place, name in enumerate(names) if place not in places.values()]
         matches = [place for place, name in free if KNOWN[key].fullmatch(name)]
         if len(matches) == 1:
-            found[key], places[key] = names[matches[0]], matches[0]
+            chosen[key], places[key] = names[matches[0]], matches[0]
         elif len({lower[place] for place in matches}) == 1:
             faults.append(f"has the column {lower[matches[0]]} twice; keep one, or rename one")
         elif matches:
@@ -143,22 +143,22 @@ def find_columns(table: Any, settings: Mapping[str, Any]) -> tuple[dict[str, str
         else:
             missing.append(key)
     if missing and not faults:
-        guess = {key: found.get(key) or guess_column(key, names, found) for key in ("time", *pair)}
+        guess = {key: chosen.get(key) or guess_column(key, names, chosen) for key in ("time", *pair)}
         if "rate" in settings:
             del guess["time"]
         or_rate = ", or state excitation.rate (Hz) in place of a time" if "time" in missing else ""
         faults.append(
-            f"has no column {' and no column '.join(missing)}; there are {there}. Say which is which by "
+            f"has no column {' and no column '.join(missing)}; there are {listed}. Say which is which by "
             f"{columns_entry(guess)} (or x and z){or_rate}"
         )
-    return found, places, faults
+    return chosen, places, faults
 
 
-def guess_column(key: str, names: list[str], found: Mapping[str, str]) -> str:
+def guess_column(key: str, names: list[str], chosen: Mapping[str, str]) -> str:
     """The column that is most like a key, for messages."""
     import difflib
 
-    free = [name for name in names if name not in found.values()]
+    free = [name for name in names if name not in chosen.values()]
     close = difflib.get_close_matches(key, [name.lower() for name in free], n=1, cutoff=0.5)
     return next((name for name in free if close and name.lower() == close[0]), "…")
 
@@ -171,16 +171,17 @@ def plain(unit: str) -> str:
 
 def unit_of(stated: str | None, headers: list[str], units: Mapping[str, float], key: str) -> tuple[str, list[str]]:
     """The unit of columns, from the config, the header, or else the first of `units`, and faults."""
-    given = {plain(header) for header in headers if header}
-    shown, choice = " and ".join(sorted(given)), f"state excitation.{key} ({', '.join(units)})"
+    header_units = {plain(header) for header in headers if header}
+    shown = " and ".join(sorted(header_units))
+    choice = f"state excitation.{key} ({', '.join(units)})"
     if stated:
         fault = f"states the unit {shown}, but excitation.{key} is {stated}; leave {key} out, or correct the header"
-        return stated, [fault] if given & set(units) - {stated} else []
-    if len(given) > 1:
+        return stated, [fault] if header_units & set(units) - {stated} else []
+    if len(header_units) > 1:
         return shown, [f"states the units {shown}; {choice}"]
-    named = next(iter(given), next(iter(units)))
-    what = "a time" if key == "time_unit" else "an acceleration"
-    otherwise = f"; if that is not the unit of {what}, name other columns in excitation.columns"
+    named = next(iter(header_units), next(iter(units)))
+    measured_quantity = "a time" if key == "time_unit" else "an acceleration"
+    otherwise = f"; if that is not the unit of {measured_quantity}, name other columns in excitation.columns"
     return named, [] if named in units else [f"states the unit {shown!r}; {choice}{otherwise}"]
 
 
@@ -193,9 +194,9 @@ def rate_fault(table: Any, rate: float) -> str | None:
     if wrong or seconds[-1] <= seconds[0]:
         return None
     stated = TIME_UNITS.get(plain(table.units[place]))
-    own = (len(seconds) - 1) / (seconds[-1] - seconds[0])
-    rates = [own / unit for unit in ([stated] if stated else TIME_UNITS.values())]
-    nearest = min(rates, key=lambda one: abs(math.log(one / rate)))
+    raw_rate = (len(seconds) - 1) / (seconds[-1] - seconds[0])
+    rates = [raw_rate / unit for unit in ([stated] if stated else TIME_UNITS.values())]
+    nearest = min(rates, key=lambda candidate: abs(math.log(candidate / rate)))
     steps = np.diff(seconds)
     coarse = steps.max() / (seconds[-1] - seconds[0])  # relative error of the duration by rounding
     if (1.0 - coarse) / ANOTHER_RATE < nearest / rate < ANOTHER_RATE * (1.0 + coarse):
@@ -231,24 +232,26 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
     pair = AXES if AXES[0] in names else SENSOR
     units = [table.units[places[key]] or unit_behind(names[key]) for key in pair]
     unit, faults = unit_of(settings.get("unit"), units, UNITS, "unit")
-    mount, rate = settings["mount"], settings.get("rate")
+    mount = settings["mount"]
+    rate = settings.get("rate")
     if pair == AXES and mount != 0.0:
         remedy = f"name the columns by {columns_entry(rename(names))}, or leave mount out"
         faults.append(f"has columns along and normal, but excitation.mount = {mount} turns x and z only; {remedy}")
     time_unit = "s"
     if rate is None:
         header = table.units[places["time"]] or unit_behind(names["time"])
-        time_unit, more = unit_of(settings.get("time_unit"), [header], TIME_UNITS, "time_unit")
+        time_unit, time_faults = unit_of(settings.get("time_unit"), [header], TIME_UNITS, "time_unit")
         if header in LONG_UNITS:
-            more = [
+            time_faults = [
                 f"states times in {header}; export them in one of {', '.join(TIME_UNITS)}, or state excitation.rate"
             ]
-        faults += more
+        faults += time_faults
     elif fault := rate_fault(table, rate):
         faults.append(fault)
     if faults:
         raise table.error((table.header, fault) for fault in faults)
-    readings, lines = [], table.lines
+    readings = []
+    lines = table.lines
     for key in pair:
         values, wrong = table.numbers(places[key], key, remedy_of_line(rate is not None))
         readings.append(-values if names[key].startswith("-") and names[key] not in table.names else values)
@@ -269,10 +272,10 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
         faults.append((None, f"has {len(lines):,} samples, more than {MOST_SAMPLES:,}; {remedy}"))
     if faults:
         raise table.error(shorten(faults))
-    measured = UNITS[unit] * np.array(readings)
-    quanta = np.array([quantum(one) for one in measured])
+    accelerations = UNITS[unit] * np.array(readings)
+    quanta = np.array([quantum(signal) for signal in accelerations])
     return Recording(
-        *(time, turn(measured, mount), pair, measured, quanta, lines, names, unit, time_unit),
+        *(time, turn(accelerations, mount), pair, accelerations, quanta, lines, names, unit, time_unit),
         sampling="stamped" if rate is None else "rate",
     )
 
@@ -291,7 +294,8 @@ def third_axis_faults(
     values, wrong = table.numbers(free[0], table.names[free[0]])
     if wrong or not len(values):
         return []
-    name, along = table.names[free[0]], readings[0]
+    name = table.names[free[0]]
+    along = readings[0]
     if GRAVITY[0] < abs(values.mean()) * UNITS[unit] / STANDARD_GRAVITY < GRAVITY[1]:
         shown = f"has gravity in the column {name}, which is not used"
         remedy = f"set {columns_entry({**names, 'z': name})}, and check x"
@@ -299,7 +303,7 @@ def third_axis_faults(
     # Of a turned sensor, this is the tangent of the angle; noise and a vibration out of phase have no part in it.
     share = abs(np.cov(along, values)[0, 1]) / max(float(np.var(along, ddof=1)), 1e-300)
     degrees = math.degrees(math.atan(share))
-    others = {**names, "x": name} if share > 1.0 else names
+    proposed = {**names, "x": name} if share > 1.0 else names
     if share > TURNED and not is_stated:
         return [
             (
@@ -307,7 +311,7 @@ def third_axis_faults(
                 f"vibrates in the column {name}, which is not used, with {share:.2g} times the vibration in "
                 f"{quote(names['x'])}: the sensor may be turned about its normal by {degrees:.0f}°, so that the "
                 f"amplitude would be too small; turn it, or say which axis is along the track by "
-                f"{columns_entry(others)}",
+                f"{columns_entry(proposed)}",
             )
         ]
     return []

@@ -80,7 +80,8 @@ def numbers_with_losses(time: np.ndarray) -> np.ndarray | None:
     """The numbers of samples of which some are lost, if times that are rounded by less than an interval show each loss,
     or None."""
     intervals = np.diff(time)
-    usual, most = float(np.median(intervals)), LEEWAY * resolution_of(time)
+    usual = float(np.median(intervals))
+    widest = LEEWAY * resolution_of(time)
     if usual <= 0.0:
         return None
     for _ in range(COUNTS):
@@ -88,7 +89,7 @@ def numbers_with_losses(time: np.ndarray) -> np.ndarray | None:
         numbers = np.concatenate([[0.0], np.cumsum(steps)])
         usual, start = np.polyfit(numbers, time, 1)
     span = np.ptp(time - start - usual * numbers)
-    is_clear = span <= min(most, CLEARLY * usual)
+    is_clear = span <= min(widest, CLEARLY * usual)
     return numbers if is_clear and 1.0 < steps.mean() < 1.0 + MOST_LOST else None
 
 
@@ -96,32 +97,33 @@ def even(time: np.ndarray, index: np.ndarray) -> Even:
     """The straight line through times over the numbers of the samples, shape (n,)."""
     slope, start = np.polyfit(index - index.mean(), time, 1)
     fitted = start + slope * (index - index.mean())
-    rest = time - fitted
-    resolution, span = resolution_of(time), float(np.ptp(rest))
+    residual = time - fitted
+    resolution = resolution_of(time)
+    span = float(np.ptp(residual))
     # Errors of one sign side by side have one cause, so runs of them count, not samples. The last decimal may hide any
     # slow error.
-    runs = 1 + np.count_nonzero(np.diff(rest > 0.0))
-    scatter = max(float(rest.std()) * math.sqrt(12.0 / runs), min(last_decimal(time), slope) / math.sqrt(3.0))
+    runs = 1 + np.count_nonzero(np.diff(residual > 0.0))
+    scatter = max(float(residual.std()) * math.sqrt(12.0 / runs), min(last_decimal(time), slope) / math.sqrt(3.0))
     # Clocks that change their rate leave a bend.
     halves = [slice(None, len(time) // 2), slice(len(time) // 2, None)]
-    bend = max(abs(np.polyfit(index[half] - index[half].mean(), rest[half], 1)[0]) for half in halves)
-    chance = float(rest.std()) * math.sqrt(12.0 * 8.0 / len(time)) / (index[-1] - index[0])
+    bend = max(abs(np.polyfit(index[half] - index[half].mean(), residual[half], 1)[0]) for half in halves)
+    chance = float(residual.std()) * math.sqrt(12.0 * 8.0 / len(time)) / (index[-1] - index[0])
     return Even(fitted, span, resolution, max(scatter / np.ptp(time), bend / slope if bend > BENT * chance else 0.0))
 
 
 def repeats(recording: Recording) -> np.ndarray:
     """Which lines repeat both readings of the line before, shape (n,)."""
-    same = (np.diff(recording.readings, axis=1) == 0.0).all(axis=0)
-    return np.concatenate([[False], same])
+    is_repeated = (np.diff(recording.readings, axis=1) == 0.0).all(axis=0)
+    return np.concatenate([[False], is_repeated])
 
 
-def keep(recording: Recording, kept: np.ndarray) -> Recording:
+def keep(recording: Recording, mask: np.ndarray) -> Recording:
     """A part of the samples."""
     return recording._replace(
-        time=recording.time[kept],
-        acceleration=recording.acceleration[:, kept],
-        readings=recording.readings[:, kept],
-        lines=recording.lines[kept],
+        time=recording.time[mask],
+        acceleration=recording.acceleration[:, mask],
+        readings=recording.readings[:, mask],
+        lines=recording.lines[mask],
     )
 
 
@@ -132,28 +134,28 @@ def is_even(line: Even) -> bool:
 
 def interpretations(recording: Recording) -> list[Recording]:
     """The recording as stamped, and with other times that its lines may mean."""
-    same = repeats(recording)
+    is_repeated = repeats(recording)
     stamped = [recording]
-    if np.count_nonzero(same) >= LEAST_REPEATED and np.count_nonzero(~same) > 2:
-        stamped.append(keep(recording, ~same)._replace(repeated=int(np.count_nonzero(same))))
+    if np.count_nonzero(is_repeated) >= LEAST_REPEATED and np.count_nonzero(~is_repeated) > 2:
+        stamped.append(keep(recording, ~is_repeated)._replace(repeated=int(np.count_nonzero(is_repeated))))
 
     def rate_error(line: Even) -> float:
         return line.rate_error if recording.sampling == STAMPED else 0.0
 
-    found, spaced = [], []
-    for one in stamped:
-        line = even(one.time, numbers_of(one.time))
+    versions, spaced = [], []
+    for version in stamped:
+        line = even(version.time, numbers_of(version.time))
         if is_even(line):
-            found.append(one._replace(rate_error=rate_error(line)))
+            versions.append(version._replace(rate_error=rate_error(line)))
             continue
-        found.append(one._replace(resolution=last_decimal(one.time)))
+        versions.append(version._replace(resolution=last_decimal(version.time)))
         lines = [line]
-        if (numbers := numbers_with_losses(one.time)) is not None:
-            lines.append(even(one.time, numbers))
-        for each in lines:
-            sampling = ROUNDED if each.deviation <= LEEWAY * each.resolution else EVEN
-            spaced.append(one._replace(time=each.time, sampling=sampling, rate_error=rate_error(each)))
-    return found + spaced
+        if (numbers := numbers_with_losses(version.time)) is not None:
+            lines.append(even(version.time, numbers))
+        for candidate in lines:
+            sampling = ROUNDED if candidate.deviation <= LEEWAY * candidate.resolution else EVEN
+            spaced.append(version._replace(time=candidate.time, sampling=sampling, rate_error=rate_error(candidate)))
+    return versions + spaced
 
 
 def is_usable(recording: Recording) -> bool:
@@ -179,22 +181,24 @@ def resolve(recording: Recording) -> Recording:
     Errors of the times that repeat in every cycle make harmonics and hardly change the residual, so where other times
     are possible, `others` has them.
     """
-    found = [one for one in interpretations(recording) if is_usable(one)] or [recording]
-    if len(found) == 1:
-        return found[0]
-    fits = [first_fit(one.time[:CHECKED], one.acceleration[:, :CHECKED])[0] for one in found]
+    versions = [version for version in interpretations(recording) if is_usable(version)] or [recording]
+    if len(versions) == 1:
+        return versions[0]
+    fits = [first_fit(version.time[:CHECKED], version.acceleration[:, :CHECKED])[0] for version in versions]
     residuals, powers = (
         np.array([power(fit) for fit in fits]) for power in (residual_variance, power_beside_fundamental)
     )
     possible = residuals <= WORSE * residuals.min()
     interval = np.diff(recording.time).mean()
-    for place, one in enumerate(found):
-        is_rounded = one.sampling == ROUNDED and not one.repeated
+    for place, version in enumerate(versions):
+        is_rounded = version.sampling == ROUNDED and not version.repeated
         if possible[place] and is_rounded and resolution_of(recording.time) < FINE * interval:
-            return one
+            return version
     best = int(np.argmin(np.where(possible, powers, np.inf)))
     best = 0 if possible[0] and powers[best] > BETTER * powers[0] else best
-    if found[best].sampling == ROUNDED:
-        return found[best]
+    if versions[best].sampling == ROUNDED:
+        return versions[best]
     likely = possible & (powers <= LIKELY * powers[best])
-    return found[best]._replace(others=tuple(one for place, one in enumerate(found) if likely[place] and place != best))
+    return versions[best]._replace(
+        others=tuple(version for place, version in enumerate(versions) if likely[place] and place != best)
+    )

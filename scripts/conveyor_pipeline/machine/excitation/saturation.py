@@ -30,23 +30,28 @@ def exceeds(values: np.ndarray, quantum: float, design: np.ndarray, width: float
     if np.count_nonzero(strip) < LEAST:
         return False
     between = (values > values.min() + 2.0 * width) & (values < values.max() - 2.0 * width)
-    part, count, orders = design[:, between], np.count_nonzero(between), len(design) // 2 - 1
+    part = design[:, between]
+    count = np.count_nonzero(between)
+    orders = len(design) // 2 - 1
     gram, products = part @ part.T, part @ values[between]
     if count <= 2 * len(design) or np.linalg.cond(gram) > SINGULAR:
         return False
-    most = products @ np.linalg.solve(gram, products)
-    variance = max(values[between] @ values[between] - most, 0.0) / (count - len(design))
+    explained = products @ np.linalg.solve(gram, products)
+    variance = max(values[between] @ values[between] - explained, 0.0) / (count - len(design))
     flat = values[strip].std() + quantum
     phases = np.arctan2(part[2 + orders], part[2]) / (2.0 * math.pi)
     separate = len(np.unique(np.round(PHASES * phases) % PHASES))
     # Between fewer phases, orders that are missing would hide by chance.
     for low in range(1, min(orders, (separate - SPARE) // 2)):
         rows = np.r_[: 2 + low, 2 + orders : 2 + orders + low]
-        inverse, mean = np.linalg.inv(gram[np.ix_(rows, rows)]), design[np.ix_(rows, strip)].mean(axis=1)
-        coefficients, more = inverse @ products[rows], 2 * (orders - low)
+        inverse = np.linalg.inv(gram[np.ix_(rows, rows)])
+        mean = design[np.ix_(rows, strip)].mean(axis=1)
+        coefficients = inverse @ products[rows]
+        extra_terms = 2 * (orders - low)
         excess = coefficients @ mean - values[strip].mean()
-        leverage, chance = mean @ inverse @ mean, more * variance * fdtri(more, count - len(design), 1.0 - CHANCE)
-        is_explained = most - coefficients @ products[rows] < chance + (excess / EXPLAINED) ** 2 / leverage
+        leverage = mean @ inverse @ mean
+        chance = extra_terms * variance * fdtri(extra_terms, count - len(design), 1.0 - CHANCE)
+        is_explained = explained - coefficients @ products[rows] < chance + (excess / EXPLAINED) ** 2 / leverage
         if is_explained and excess > max(SURE * math.sqrt(variance * leverage), FLAT * flat):
             return True
     return False
