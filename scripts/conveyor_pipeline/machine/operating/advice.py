@@ -126,26 +126,27 @@ def beyond(amplitudes: np.ndarray, low: float, high: float) -> np.ndarray:
 
 
 def held_range(
-    amplitudes: np.ndarray, slowest: np.ndarray, place: int, at: Callable[[np.ndarray], pd.DataFrame]
+    amplitudes: np.ndarray, slowest: np.ndarray, place: int, measure_at: Callable[[np.ndarray], pd.DataFrame]
 ) -> tuple[float, float]:
     """The amplitudes (m/s²) around a place of a table between which the 5 % quantile stays above KEPT of its value.
 
     Bisection between two amplitudes of the table. At an end of the table, the amplitude of this end.
 
     slowest : the 5 % quantile of the velocity at the amplitudes
-    at : the measures at further amplitudes
+    measure_at : the measures at further amplitudes
     """
-    least, ends = KEPT * slowest[place], []
+    lowest = KEPT * slowest[place]
+    ends = []
     for step in (-1, 1):
-        kept = place
-        while 0 <= kept + step < len(amplitudes) and slowest[kept + step] >= least:
-            kept += step
-        good = amplitudes[kept]
-        if 0 <= kept + step < len(amplitudes):
-            bad = amplitudes[kept + step]
+        edge = place
+        while 0 <= edge + step < len(amplitudes) and slowest[edge + step] >= lowest:
+            edge += step
+        good = amplitudes[edge]
+        if 0 <= edge + step < len(amplitudes):
+            bad = amplitudes[edge + step]
             for _ in range(HALVINGS):
                 middle = 0.5 * (good + bad)
-                good, bad = (middle, bad) if at(np.array([middle])).velocity_05[0] >= least else (good, middle)
+                good, bad = (middle, bad) if measure_at(np.array([middle])).velocity_05[0] >= lowest else (good, middle)
         ends.append(float(good))
     return ends[0], ends[1]
 
@@ -185,25 +186,28 @@ def neighbours(model: dict, changes: dict[str, float]) -> tuple[list[tuple[str, 
     """Parameters with their values after changes up and down: those in the range of the model, and the others."""
     values = [(name, model[name] + sign * change) for name, change in changes.items() for sign in (-1.0, 1.0)]
     inside = [(name, value) for name, value in values if RANGES[name][0] <= value <= RANGES[name][1]]
-    return inside, [one for one in values if one not in inside]
+    return inside, [pair for pair in values if pair not in inside]
 
 
 def changes_at(acceleration: float, settings: dict, changes: dict[str, float], *, threads: int = 1) -> list[dict]:
     """Measures if one parameter at a time is increased or decreased, at an amplitude (m/s²)."""
-    model, amplitude, parts = settings["model"], np.array([acceleration]), settings["starts"]
+    model = settings["model"]
+    amplitude = np.array([acceleration])
+    parts = settings["starts"]
     changed, _ = neighbours(model, changes)
     if not changed:
         return []
-    models = [model, *(with_parameter(model, *one) for one in changed)]
-    populations = [population(amplitude, {**settings, "model": one}) for one in models]
+    models = [model, *(with_parameter(model, *change) for change in changed)]
+    populations = [population(amplitude, {**settings, "model": changed_model}) for changed_model in models]
     run = follow_parts(np.concatenate(populations), settings, threads=threads)
     velocity, is_right = run.velocity[:, 0].reshape(-1, parts), (run.status == "ok").reshape(-1, parts)
-    measures, rows = summarize_populations(run, parts).to_dict("records"), []
+    measures = summarize_populations(run, parts).to_dict("records")
+    rows = []
     for place, (parameter, value) in enumerate(changed, start=1):
-        both = is_right[0] & is_right[place]
+        both_right = is_right[0] & is_right[place]
         rows.append(
             measures[place]
-            | compare(velocity[0, both], velocity[place, both], settings["seed"])
+            | compare(velocity[0, both_right], velocity[place, both_right], settings["seed"])
             | {"parameter": parameter, "value": value}
         )
     return rows
@@ -227,10 +231,11 @@ def recommend(
     rows : measures of varied parts over the amplitude
     limits : ends of the range within which the advice must hold, as multiples of the amplitude
     """
-    amplitudes, (low, high) = rows.acceleration.to_numpy(), limits
+    amplitudes = rows.acceleration.to_numpy()
+    (low, high) = limits
 
-    def at(more: np.ndarray) -> pd.DataFrame:
-        return measure(more, settings, (VARIED,), threads=threads)
+    def measure_at(further: np.ndarray) -> pd.DataFrame:
+        return measure(further, settings, (VARIED,), threads=threads)
 
     def inside(place: int) -> slice:
         lowest, highest = amplitudes[place] * low, amplitudes[place] * high
@@ -240,9 +245,9 @@ def recommend(
     @cache
     def around(place: int) -> pd.DataFrame:
         ends = np.array([amplitudes[place] * low, amplitudes[place] * high])
-        return pd.concat([rows.iloc[inside(place)], at(np.concatenate([ends, beyond(amplitudes, *ends)]))])
+        return pd.concat([rows.iloc[inside(place)], measure_at(np.concatenate([ends, beyond(amplitudes, *ends)]))])
 
-    return choose(rows, around, inside), around, at
+    return choose(rows, around, inside), around, measure_at
 
 
 def make(
@@ -258,10 +263,12 @@ def make(
 
     samples, parameters : as in transit.make
     """
-    followed, (low, high) = with_calibration(transit.attrs, samples, parameters), settings["range"]
+    followed = with_calibration(transit.attrs, samples, parameters)
+    (low, high) = settings["range"]
     rows = transit[transit.population == VARIED].reset_index(drop=True)
-    amplitudes, unit = rows.acceleration.to_numpy(), throw_number(1.0, **followed["model"])
-    places, around, at = recommend(rows, followed, (low, high), threads)
+    amplitudes = rows.acceleration.to_numpy()
+    unit = throw_number(1.0, **followed["model"])
+    places, around, measure_at = recommend(rows, followed, (low, high), threads)
     places = places if moves_forward(transit) else {}
     of_points = {}
     if "body" in followed and places:
@@ -269,8 +276,13 @@ def make(
         of_points, *_ = recommend(measure(amplitudes, points, (VARIED,), threads=threads), points, (low, high), threads)
     advice, changes = [], []
     for aim, place in places.items():
-        row, within = rows.iloc[place], around(place).reset_index(drop=True)
-        held = held_range(amplitudes, rows.velocity_05.to_numpy(), place, at) if "supply" in settings else (np.nan,) * 2
+        row = rows.iloc[place]
+        within = around(place).reset_index(drop=True)
+        held = (
+            held_range(amplitudes, rows.velocity_05.to_numpy(), place, measure_at)
+            if "supply" in settings
+            else (np.nan,) * 2
+        )
         worst = {
             "lowest": row.acceleration * low,
             "highest": row.acceleration * high,
@@ -280,12 +292,12 @@ def make(
             "held_low": held[0],
             "held_high": held[1],
         }
-        own = {"aim": aim, "throw_number": unit * row.acceleration} | describe_states(shares, row.acceleration)
-        other = rows.iloc[of_points[aim]] if aim in of_points else {"acceleration": np.nan, "velocity_05": np.nan}
-        own |= {"point_acceleration": other["acceleration"], "point_velocity": other["velocity_05"]}
-        advice.append(row.to_dict() | worst | own)
+        description = {"aim": aim, "throw_number": unit * row.acceleration} | describe_states(shares, row.acceleration)
+        point_row = rows.iloc[of_points[aim]] if aim in of_points else {"acceleration": np.nan, "velocity_05": np.nan}
+        description |= {"point_acceleration": point_row["acceleration"], "point_velocity": point_row["velocity_05"]}
+        advice.append(row.to_dict() | worst | description)
         changed = changes_at(row.acceleration, followed, settings["changes"], threads=threads)
-        changes += [{"aim": aim, **one} for one in changed]
+        changes += [{"aim": aim, **change} for change in changed]
     return {
         "advice": fields.columns(advice, TABLES["advice"]),
         "changes": fields.columns(changes, TABLES["changes"]),

@@ -79,13 +79,15 @@ def measure(rows: np.ndarray, shape: tuple[float, float] | None, settings: dict,
     unit, _ = length_and_speed_units(rows[0])
     length, height = shape or (np.nan, np.nan)
     longest = body_limits.LONGEST / settings["model"]["frequency"]
-    own = {**settings, "length": body_limits.TRACK * unit, "longest": longest, "tolerance": body_limits.TOLERANCE}
+    followed = {**settings, "length": body_limits.TRACK * unit, "longest": longest, "tolerance": body_limits.TOLERANCE}
     if shape:
-        own["body"] = {"length": length * unit, "height": length * height * unit, "tilt": TILT}
-    run, measures = follow_parts(rows, own, progress=progress), []
+        followed["body"] = {"length": length * unit, "height": length * height * unit, "tilt": TILT}
+    run = follow_parts(rows, followed, progress=progress)
+    measures = []
     for first in range(0, len(rows), settings["starts"]):
         parts = run.select(slice(first, first + settings["starts"]))
-        summary, right = summarize(parts), parts.select(parts.status == "ok")
+        summary = summarize(parts)
+        right = parts.select(parts.status == "ok")
         # Whether parts have neither left the plate nor hit it after the drop onto the track.
         ride = (right.airtime if shape else right.impact_speed) == 0.0
         measures.append(
@@ -152,12 +154,12 @@ def make(settings: dict, *, progress: str | None = None) -> dict[str, pd.DataFra
     lengths, heights = logarithmic(LENGTHS, side), logarithmic(SLENDERNESS, side)
     shapes = []
     for motion, throw in MOTIONS.items():
-        many = {**settings, "starts": max(4, round(effort * body_limits.POINTS))}
-        cells = {**settings, "starts": max(4, round(effort * body_limits.OF_A_CELL[motion]))}
-        (points,) = measure(population(np.array([throw]) / unit, many, IDENTICAL), None, many, progress)
-        rows = population(np.array([throw]) / unit, cells, IDENTICAL)
+        of_points = {**settings, "starts": max(4, round(effort * body_limits.POINTS))}
+        of_cells = {**settings, "starts": max(4, round(effort * body_limits.OF_A_CELL[motion]))}
+        (points,) = measure(population(np.array([throw]) / unit, of_points, IDENTICAL), None, of_points, progress)
+        rows = population(np.array([throw]) / unit, of_cells, IDENTICAL)
         for shape in itertools.product(lengths, heights):
-            (blocks,) = measure(rows, shape, cells, progress)
+            (blocks,) = measure(rows, shape, of_cells, progress)
             compared = dict(zip(("difference", "difference_stderr"), relative_difference(blocks, points), strict=True))
             shapes.append({"motion": motion, "points_ride": points["rides"], **blocks, **compared})
     (first,) = population(np.array([MOTIONS["coexist"]]) / unit, {**settings, "starts": 1}, IDENTICAL)

@@ -53,7 +53,8 @@ def faster_than_plate(shares: pd.DataFrame) -> list[float]:
 
     Friction drives no part faster than the plate, and gravity does on a steep track only.
     """
-    model, amplitudes = shares.attrs["model"], summarize_amplitudes(shares)
+    model = shares.attrs["model"]
+    amplitudes = summarize_amplitudes(shares)
     if model.get("tension", "allow") != "allow" or (shares.status == SLIDES_AWAY).any():
         return []
     _, conveyors = grid.product({"acceleration": amplitudes.acceleration.tolist()}, model)
@@ -77,10 +78,10 @@ def summarize_fastest(shares: pd.DataFrame, intervals: list[dict]) -> dict:
     """
     amplitudes = summarize_amplitudes(shares)
     inside = [amplitudes.acceleration.between(row["begin"], row["end"]) for row in intervals]
-    own = amplitudes[np.any(inside, axis=0)]
-    ranges = {name: (own[name].min(), own[name].max()) for name in ("best", "best_share")}
+    rows = amplitudes[np.any(inside, axis=0)]
+    ranges = {name: (rows[name].min(), rows[name].max()) for name in ("best", "best_share")}
     ranges["best"] = [round(end, DECIMALS) + 0.0 for end in ranges["best"]]
-    return {**ranges, "most": own.loc[own.best_share.idxmax()].to_dict()}
+    return {**ranges, "most": rows.loc[rows.best_share.idxmax()].to_dict()}
 
 
 def motion_at(acceleration: float, shares: pd.DataFrame, rows: pd.DataFrame) -> dict:
@@ -89,21 +90,21 @@ def motion_at(acceleration: float, shares: pd.DataFrame, rows: pd.DataFrame) -> 
     `regimes` are those of its row of the table, and `states` its states with their shares, the largest one first.
     """
     row = rows[(rows.begin <= acceleration) & (acceleration <= rows.end)].iloc[0]
-    at = shares[shares.acceleration == acceleration].groupby("state").share.sum()
+    state_shares = shares[shares.acceleration == acceleration].groupby("state").share.sum()
     return {
         "regime": row.regime,
         "regimes": row.regimes,
-        "states": at.sort_values(ascending=False, kind="stable").to_dict(),
+        "states": state_shares.sort_values(ascending=False, kind="stable").to_dict(),
     }
 
 
 def select_changes(aim: str, changes: pd.DataFrame) -> list[dict]:
     """The changes of one parameter that serve the aim best: more velocity, or less spread."""
-    own = changes[changes.aim == aim]
-    effect, error = (own.gain, own.gain_stderr) if aim == FAST else (-own.widening, own.widening_stderr)
+    rows = changes[changes.aim == aim]
+    effect, error = (rows.gain, rows.gain_stderr) if aim == FAST else (-rows.widening, rows.widening_stderr)
     helps = (effect > WORTH_CHANGING) & (effect > CERTAIN * error)
     order = effect[helps].sort_values(ascending=False, kind="stable").index
-    return own.loc[order[:MOST_CHANGES]].replace({np.nan: None}).to_dict("records")
+    return rows.loc[order[:MOST_CHANGES]].replace({np.nan: None}).to_dict("records")
 
 
 def summarize_advice(transit: pd.DataFrame, advice: pd.DataFrame, changes: pd.DataFrame) -> dict:

@@ -54,8 +54,8 @@ TABLES = {
 def amplitudes_in(regime: str, regimes: pd.DataFrame, settings: dict) -> np.ndarray:
     """The amplitudes (m/s²) of the transit table that lie in intervals with a regime, ascending."""
     axis = np.unique(grid.axis_values("acceleration", settings["acceleration"]))
-    own = regimes[regimes.regime == regime]
-    inside = (axis[:, None] >= own.begin.to_numpy()) & (axis[:, None] <= own.end.to_numpy())
+    intervals = regimes[regimes.regime == regime]
+    inside = (axis[:, None] >= intervals.begin.to_numpy()) & (axis[:, None] <= intervals.end.to_numpy())
     return axis[inside.any(axis=1)]
 
 
@@ -84,7 +84,7 @@ def drift_at(acceleration: float, x: np.ndarray, is_low: np.ndarray, period: flo
     if not known.all():
         return row
     displacements = np.diff(x, axis=1)
-    whole, *sets = (random_walk(displacements[of], period) for of in (known, is_low, ~is_low))
+    whole, *sets = (random_walk(displacements[selected], period) for selected in (known, is_low, ~is_low))
     row |= {"velocity": whole.velocity, "velocity_stderr": whole.velocity_stderr, "status": whole.status}
     row |= {"diffusion": whole.diffusion, "diffusion_stderr": whole.diffusion_stderr, "window": whole.window}
     for number, chaotic in enumerate(sets, start=1):
@@ -103,7 +103,7 @@ def drift_table(amplitudes: np.ndarray, settings: dict, **options) -> pd.DataFra
     rows = population(amplitudes, runs, IDENTICAL)
     x = positions(rows, settings, **options).reshape(len(amplitudes), len(height), -1)
     period = 1.0 / settings["model"]["frequency"]
-    rows = [drift_at(acceleration, of, is_low, period) for acceleration, of in zip(amplitudes, x, strict=True)]
+    rows = [drift_at(acceleration, paths, is_low, period) for acceleration, paths in zip(amplitudes, x, strict=True)]
     return pd.DataFrame(rows, columns=columns)
 
 
@@ -119,10 +119,10 @@ def lengths_table(regimes: pd.DataFrame, drifts: pd.DataFrame, settings: dict, *
             run = follow(population(np.array([acceleration]), settings, IDENTICAL), settings, **track, **options)
             right = run.status == "ok"
             values, errors = zip(*(quantiles(velocity) for velocity in run.velocity[right].T), strict=True)
-            own = drifts[drifts.acceleration == acceleration]
+            drift = drifts[drifts.acceleration == acceleration]
             predicted = np.full(len(factors), np.nan)
             if regime == CHAOS:
-                predicted = relative_spread(*own[["velocity", "diffusion"]].iloc[0], track["lengths"], deviations)
+                predicted = relative_spread(*drift[["velocity", "diffusion"]].iloc[0], track["lengths"], deviations)
             tables.append(
                 pd.DataFrame(
                     {

@@ -108,8 +108,8 @@ def evaluate(designs: np.ndarray, settings: dict, errors: np.ndarray, *, threads
     """
     rows = []
     for design in designs:
-        own = {**settings, "model": model_of(design, settings["model"])}
-        rows.append(population(design[0] * (1.0 + settings["margin"] * errors), own))
+        design_settings = {**settings, "model": model_of(design, settings["model"])}
+        rows.append(population(design[0] * (1.0 + settings["margin"] * errors), design_settings))
     run = follow(np.concatenate(rows), settings, threads=threads)
     measures = summarize_populations(run, settings["starts"])
     outcome = {
@@ -139,8 +139,8 @@ def is_within(outcome: pd.DataFrame, settings: dict) -> np.ndarray:
 
 def evaluate_few(designs: np.ndarray, settings: dict) -> pd.DataFrame:
     """What `evaluate` returns for the few parts and the short time of a search."""
-    few = {**settings, "starts": settings["search"]["parts"], "longest": settings["search"]["longest"]}
-    return evaluate(designs, few, SEARCH_ERRORS)
+    search_settings = {**settings, "starts": settings["search"]["parts"], "longest": settings["search"]["longest"]}
+    return evaluate(designs, search_settings, SEARCH_ERRORS)
 
 
 def search_outcomes(designs: np.ndarray, settings: dict) -> tuple[np.ndarray, np.ndarray]:
@@ -233,7 +233,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     total = len(SEEDS) * settings["generations"]
     with progress_bar(total=total, label=progress, unit="generations") as shown, ThreadPoolExecutor(threads) as pool:
         searches = {seed: pool.submit(search, settings, seed, shown.update) for seed in SEEDS}
-    fronts = {seed: one.result() for seed, one in searches.items()}
+    fronts = {seed: future.result() for seed, future in searches.items()}
     designs, objectives = pareto.best_of(
         np.vstack([front.points for front in fronts.values()]),
         np.vstack([front.objectives for front in fronts.values()]),
@@ -248,7 +248,7 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     )
     history = [
         {"seed": seed, "generation": number, "hypervolume": volume / whole if whole else 0.0}
-        for seed, one in fronts.items()
-        for number, volume in enumerate(one.volumes, start=1)
+        for seed, front in fronts.items()
+        for number, volume in enumerate(front.volumes, start=1)
     ]
     return {"drive_front": check(front, settings, threads=threads), "drive_generations": pd.DataFrame(history)}

@@ -17,8 +17,8 @@ CLOSE = 0.02  # of the width of bounds, or of a limit: a design that is closer l
 
 def throw_numbers(designs: pd.DataFrame, model: dict) -> list[float]:
     """The throw number of each design."""
-    at = [throw_number(1.0, **(model | {"angle": angle})) for angle in designs.angle]
-    return (designs.acceleration * at).tolist()
+    per_amplitude = [throw_number(1.0, **(model | {"angle": angle})) for angle in designs.angle]
+    return (designs.acceleration * per_amplitude).tolist()
 
 
 def summarize_search(*, front: pd.DataFrame, generations: pd.DataFrame) -> dict:

@@ -27,8 +27,8 @@ def starts_of_box(settings: dict) -> np.ndarray:
 
 def tilts_of(settings: dict) -> np.ndarray:
     """Initial angles (rad) of blocks, uniform in ±tilt of the section `body`, shape (n,)."""
-    own = np.random.default_rng([settings["seed"], 1]).random(settings["starts"])
-    return settings["body"]["tilt"] * (2.0 * own - 1.0)
+    uniform = np.random.default_rng([settings["seed"], 1]).random(settings["starts"])
+    return settings["body"]["tilt"] * (2.0 * uniform - 1.0)
 
 
 def raise_blocks(rows: np.ndarray, block: Block, tilts: np.ndarray) -> np.ndarray:
@@ -57,13 +57,13 @@ def calibrated_factors(samples: pd.DataFrame, settings: dict) -> np.ndarray:
 
     settings : `model`, whose values the factors multiply; `starts` (n) and `spread`, whose seed assigns the samples
     """
-    own = np.ones((settings["starts"], len(COLUMNS)))
+    calibrated = np.ones((settings["starts"], len(COLUMNS)))
     order = np.random.default_rng(settings["spread"]["seed"]).permutation(len(samples))
-    chosen = samples.iloc[np.resize(order, len(own))]
+    chosen = samples.iloc[np.resize(order, len(calibrated))]
     for column, name in enumerate(COLUMNS):
         if name in samples:
-            own[:, column] = chosen[name] / settings["model"][name]
-    return own
+            calibrated[:, column] = chosen[name] / settings["model"][name]
+    return calibrated
 
 
 def with_calibration(settings: dict, samples: pd.DataFrame | None, parameters: pd.DataFrame | None) -> dict:
@@ -82,9 +82,9 @@ def with_calibration(settings: dict, samples: pd.DataFrame | None, parameters: p
     if samples.empty:
         raise JobError("The search of the calibration has not converged, so that parts cannot be drawn from it")
     for row in parameters.itertuples():
-        if not math.isclose(own := settings["model"][row.parameter], row.best, rel_tol=ROUNDING):
+        if not math.isclose(model_value := settings["model"][row.parameter], row.best, rel_tol=ROUNDING):
             raise JobError(
-                f"model.{row.parameter} = {own} is not {row.best:.6g}, the calibrated value; "
+                f"model.{row.parameter} = {model_value} is not {row.best:.6g}, the calibrated value; "
                 "name calibrated.yaml behind your config; if it is there, it is new now, so type the command again"
             )
     return {**settings, "calibrated": calibrated_factors(samples, settings)}
@@ -103,10 +103,10 @@ def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np
     rows = np.repeat(conveyors, len(starts))
     if kind == VARIED:
         spread = factors(settings["spread"], len(starts))
-        each = spread * settings.get("calibrated", 1.0)
+        part_factors = spread * settings.get("calibrated", 1.0)
         # A calibration keeps a stated static friction. Otherwise it is equal to the friction.
-        of_static = spread if "static_friction" in settings["model"] else each
-        for name, column in zip(COLUMNS, each.T, strict=True):
+        of_static = spread if "static_friction" in settings["model"] else part_factors
+        for name, column in zip(COLUMNS, part_factors.T, strict=True):
             rows[name] *= np.tile(column, len(amplitudes))
         rows["static_friction"] *= np.tile(of_static[:, COLUMNS.index("friction")], len(amplitudes))
         rows["static_friction"] = np.maximum(rows["static_friction"], rows["friction"])

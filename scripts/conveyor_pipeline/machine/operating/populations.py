@@ -19,8 +19,8 @@ def differences(settings: dict) -> dict[str, dict[str, float] | bool]:
     `spread` has the relative standard deviations that are not zero, by parameter, and `calibrated` says whether the
     parameters are drawn from the samples of a calibration, too.
     """
-    own = settings["spread"]
+    spread = settings["spread"]
     return {
-        "spread": {name: share for name, share in own.items() if name in COLUMNS and share > 0.0},
-        "calibrated": own.get("calibrated", False),
+        "spread": {name: share for name, share in spread.items() if name in COLUMNS and share > 0.0},
+        "calibrated": spread.get("calibrated", False),
     }

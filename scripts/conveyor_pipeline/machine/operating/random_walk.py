@@ -52,7 +52,8 @@ def uncorrelated_window(fluctuations: np.ndarray) -> int:
 
     fluctuations : displacements in single cycles without their mean, shape (n, k)
     """
-    enough, window = 0, DEFAULT_WINDOW
+    enough = 0
+    window = DEFAULT_WINDOW
     while fluctuations.shape[1] // window >= LEAST_WINDOWS:
         sums = sums_over(fluctuations, window)
         neighbours = sums[:, 1:] * sums[:, :-1]

@@ -44,9 +44,9 @@ COLUMNS = (
 )
 
 
-def same(velocity: np.ndarray, other: float) -> np.ndarray:
+def are_equal(velocity: np.ndarray, reference: float) -> np.ndarray:
     """Whether velocities count as equal to another: they differ by at most a share of the larger one."""
-    return np.abs(velocity - other) <= SAME_VELOCITY * np.maximum(np.abs(velocity), abs(other))
+    return np.abs(velocity - reference) <= SAME_VELOCITY * np.maximum(np.abs(velocity), abs(reference))
 
 
 def regime_of(state: np.ndarray, velocity: np.ndarray) -> str:
@@ -57,7 +57,7 @@ def regime_of(state: np.ndarray, velocity: np.ndarray) -> str:
         return CHAOS
     if (state == "chaos").any():
         return BESIDE
-    return ONE if same(velocity, velocity.max()).all() else SEVERAL
+    return ONE if are_equal(velocity, velocity.max()).all() else SEVERAL
 
 
 def summarize_amplitudes(shares: pd.DataFrame) -> pd.DataFrame:
@@ -71,7 +71,7 @@ def summarize_amplitudes(shares: pd.DataFrame) -> pd.DataFrame:
     for acceleration, motions in shares.groupby("acceleration"):
         velocity, share = motions.mean_velocity.to_numpy(), motions.share.to_numpy()
         best = velocity.max()
-        reach_it = np.nan if np.isnan(best) else float(share[same(velocity, best)].sum())
+        reach_it = np.nan if np.isnan(best) else float(share[are_equal(velocity, best)].sum())
         rows.append(
             {
                 "acceleration": acceleration,
@@ -143,9 +143,9 @@ def intervals_of(amplitudes: pd.DataFrame, shares: pd.DataFrame) -> pd.DataFrame
 def join(rows: pd.DataFrame) -> dict:
     """One interval from neighbouring ones, with the states and the range of velocities of all of them."""
     states = dict.fromkeys(", ".join(rows.states).split(", "))  # each once, in this order
-    least = rows[["begin", "velocity_low", "best_low", "best_share_low"]].min(skipna=False)
-    most = rows[["end", "step", "best_high", "best_share_high"]].max(skipna=False)
-    return {**least, **most, "states": ", ".join(states), "amplitudes": rows.amplitudes.sum(), "regime": CHANGING}
+    lowest = rows[["begin", "velocity_low", "best_low", "best_share_low"]].min(skipna=False)
+    highest = rows[["end", "step", "best_high", "best_share_high"]].max(skipna=False)
+    return {**lowest, **highest, "states": ", ".join(states), "amplitudes": rows.amplitudes.sum(), "regime": CHANGING}
 
 
 def group_narrow(regimes: pd.DataFrame, margin: float) -> pd.DataFrame:

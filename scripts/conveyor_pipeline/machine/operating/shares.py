@@ -65,7 +65,8 @@ def labels_of(parameters: np.ndarray, settings: dict, *, threads: int = 1, progr
     between this share and the limit, more cycles would not help the others; Lyapunov exponents label them then.
     """
     options = {"threads": threads, "progress": progress}
-    known, limit = shared_attractors(parameters, settings["starts"], settings, **options), settings["settling"]
+    known = shared_attractors(parameters, settings["starts"], settings, **options)
+    limit = settings["settling"]
     options = {**search_options(settings), "attractors": known, **options}
     cycles = math.ceil(BRIEF * limit)
     brief = {**options, "cycles": cycles}
@@ -73,16 +74,16 @@ def labels_of(parameters: np.ndarray, settings: dict, *, threads: int = 1, progr
     first = start < TRIED
     tried = classify(parameters[first], **options)
 
-    def others_where(which: np.ndarray) -> np.ndarray:
+    def others_where(chosen: np.ndarray) -> np.ndarray:
         """The others of the amplitudes of some of those that were tried."""
-        return ~first & np.isin(amplitude, amplitude[first][which])
+        return ~first & np.isin(amplitude, amplitude[first][chosen])
 
     undecided = others_where(tried.state == "undecided")
     endless = others_where(tried.cycles >= limit) & ~undecided
     endless &= ~others_where((tried.cycles > cycles) & (tried.cycles < limit))
     rows = [first, ~(first | undecided | endless), endless, undecided]
     how = [options, brief, brief | {"exponents": False}]
-    parts = [classify(parameters[some], **given) for some, given in zip(rows[1:], how, strict=True)]
+    parts = [classify(parameters[some], **run_options) for some, run_options in zip(rows[1:], how, strict=True)]
     return join([tried, *parts], [np.flatnonzero(some) for some in rows])
 
 
@@ -95,11 +96,11 @@ def groups(labels: Columns, conveyor: np.ndarray) -> np.ndarray:
     """
     flights = np.nan_to_num(labels.longest_flight, nan=-1.0)
     order = np.lexsort((flights, labels.period, labels.state, conveyor))
-    same = np.diff(flights[order]) <= APART
+    is_same = np.diff(flights[order]) <= APART
     for column in (conveyor, labels.state, labels.period):
-        same &= column[order][1:] == column[order][:-1]
+        is_same &= column[order][1:] == column[order][:-1]
     number = np.empty(len(order), dtype=np.int64)
-    number[order] = np.concatenate([[0], np.cumsum(~same)])
+    number[order] = np.concatenate([[0], np.cumsum(~is_same)])
     return number
 
 
@@ -151,7 +152,8 @@ def velocities(
     step = np.maximum(period, 1)
     quarter = np.maximum(np.maximum(CYCLES, np.ceil((settled + FORGOTTEN) / 3.0)), step)
     steep = steepness(parameters)
-    status[steep == 2], open_ = regimes.SLIDES_AWAY, np.flatnonzero(steep < 2)
+    status[steep == 2] = regimes.SLIDES_AWAY
+    open_ = np.flatnonzero(steep < 2)
     # Every trajectory needs the second run, which contains the first; one integration gives both.
     for doublings in ([0, 1], *([doubling] for doubling in range(2, RUNS))):
         cycles = 4.0 * step[open_, None] * np.ceil(2.0 ** np.array(doublings) * (quarter / step)[open_, None])
@@ -184,10 +186,10 @@ def brief_durations(parameters: np.ndarray, period: np.ndarray, cycles: int) -> 
     cycles : least excitation cycles of a run
     """
     alpha, friction = parameters["inclination"], parameters["friction"]
-    left = parameters["gravity"] * (friction * cos(alpha) - np.abs(sin(alpha)))
+    remaining = parameters["gravity"] * (friction * cos(alpha) - np.abs(sin(alpha)))
     along = parameters["acceleration"] * cos(parameters["angle"])
     # Friction that cannot hold a sliding part does not slow it down however long the run is.
-    needed = np.where(left > 0.0, along / (2.0 * math.pi * 0.75 * np.maximum(left, 1e-300)), 0.0)
+    needed = np.where(remaining > 0.0, along / (2.0 * math.pi * 0.75 * np.maximum(remaining, 1e-300)), 0.0)
     step = 4.0 * np.maximum(period, 1)
     return step * np.ceil(np.maximum(cycles, np.minimum(needed, MOST_CYCLES)) / step) / parameters["frequency"]
 
@@ -204,26 +206,27 @@ def shares_at(
 
     followed : initial conditions per attractor from which its mean velocity is computed
     """
-    starts, parameters = settings["starts"], population(amplitudes, settings, IDENTICAL)
+    starts = settings["starts"]
+    parameters = population(amplitudes, settings, IDENTICAL)
     labels = labels_of(parameters, settings, threads=threads, progress=progress)
     number = groups(labels, np.arange(len(parameters)) // starts)
     _, first, count = np.unique(number, return_index=True, return_counts=True)
     # The trajectories of each motion that have settled first are followed further.
-    most = np.where(labels.state[first] == "undecided", 0, followed)
+    limits = np.where(labels.state[first] == "undecided", 0, followed)
     order = np.lexsort((labels.cycles, number))
     rank = np.arange(len(order)) - np.repeat(np.cumsum(count) - count, count)
-    chosen = order[rank < np.repeat(most, count)]
+    chosen = order[rank < np.repeat(limits, count)]
     of_chosen = labels.select(chosen)
-    each, each_peaks, each_status = velocities(parameters[chosen], of_chosen, settings, threads=threads)
+    each_velocity, each_peaks, each_status = velocities(parameters[chosen], of_chosen, settings, threads=threads)
     velocity, error, peaks = np.full(len(first), np.nan), np.full(len(first), np.nan), np.full((len(first), 2), np.nan)
-    status = np.where(most > 0, "ok", regimes.UNDECIDED).astype(object)
-    for row, own in enumerate(np.split(np.arange(len(chosen)), np.cumsum(np.minimum(count, most))[:-1])):
-        failed = each_status[own] != "ok"
+    status = np.where(limits > 0, "ok", regimes.UNDECIDED).astype(object)
+    for row, members in enumerate(np.split(np.arange(len(chosen)), np.cumsum(np.minimum(count, limits))[:-1])):
+        failed = each_status[members] != "ok"
         if failed.any():
-            status[row] = each_status[own][failed][0]
-        elif len(own):
-            velocity[row], peaks[row] = each[own].mean(), each_peaks[own].max(axis=0)
-            error[row] = each[own].std(ddof=1) / math.sqrt(len(own)) if len(own) > 1 else np.nan
+            status[row] = each_status[members][failed][0]
+        elif len(members):
+            velocity[row], peaks[row] = each_velocity[members].mean(), each_peaks[members].max(axis=0)
+            error[row] = each_velocity[members].std(ddof=1) / math.sqrt(len(members)) if len(members) > 1 else np.nan
     share = count / starts
     acceleration = parameters["acceleration"][first]
     table = pd.DataFrame(

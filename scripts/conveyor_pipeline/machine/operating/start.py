@@ -123,14 +123,15 @@ def at_rest(rows: np.ndarray) -> Motion:
 
 def dropped(amplitude: float, settings: dict, threads: int) -> Motion:
     """Parts from the box of initial conditions at the next phase 0 of a plate with a constant amplitude (m/s²)."""
-    own = population(np.array([amplitude]), settings)
+    parts = population(np.array([amplitude]), settings)
     period = 1.0 / settings["model"]["frequency"]
-    rest = (1.0 - own["psi0"] / (2.0 * math.pi)) % 1.0 * period
+    delay = (1.0 - parts["psi0"] / (2.0 * math.pi)) % 1.0 * period
     options = {"columns": ["z", "vz", "vx"], "tolerance": settings["tolerance"], "threads": threads}
-    run = sample_runs(own, rest[:, None], **options)
-    scale, plate = own["acceleration"], plate_at_ends(settings["model"])
+    run = sample_runs(parts, delay[:, None], **options)
+    scale = parts["acceleration"]
+    plate = plate_at_ends(settings["model"])
     ends = [run[name][:, 0] - scale * plate[name][0] for name in ("z", "vz", "vx")]
-    return Motion(*ends, np.zeros(len(own), dtype=np.int64))
+    return Motion(*ends, np.zeros(len(parts), dtype=np.int64))
 
 
 def follow(
@@ -145,21 +146,22 @@ def follow(
     motion : at the beginning
     settings : `model` and `tolerance`
     """
-    plate, half = plate_at_ends(settings["model"]), 0.5 / settings["model"]["frequency"]
+    plate = plate_at_ends(settings["model"])
+    half = 0.5 / settings["model"]["frequency"]
     times = np.tile(np.linspace(0.0, half, SAMPLES + 1), (len(rows), 1))
     options = {"columns": ["x", "vx", "z", "vz", "contact_force"], "tolerance": settings["tolerance"]}
     travelled, flights, gaps = np.empty((3, len(amplitudes), len(rows)))
     for k, amplitude in enumerate(amplitudes):
-        here, there = k % 2, (k + 1) % 2
+        begin, end = k % 2, (k + 1) % 2
         scale = rows["acceleration"] * amplitude
         start = replace_parameters(
             rows,
             acceleration=scale,
-            psi0=math.pi * here,
-            z0=scale * plate["z"][here] + motion.gap,
-            vz0=scale * plate["vz"][here] + motion.rate,
+            psi0=math.pi * begin,
+            z0=scale * plate["z"][begin] + motion.gap,
+            vz0=scale * plate["vz"][begin] + motion.rate,
         )
-        speed = scale * plate["vx"][here] + motion.slip
+        speed = scale * plate["vx"][begin] + motion.slip
         # A part that slides away is lost once it is faster than any run may begin.
         speed = np.where(np.abs(speed) <= RANGES["vz0"][1], speed, np.nan)
         run = sample_runs(start, times, vx0=speed, threads=threads, **options)
@@ -167,7 +169,7 @@ def follow(
         for force in run.contact_force.T[1:]:
             airborne = np.where(force == 0.0, airborne + 1, 0)
             longest = np.maximum(longest, airborne)
-        ends = {name: run[name][:, -1] - scale * plate[name][there] for name in ("z", "vz", "vx")}
+        ends = {name: run[name][:, -1] - scale * plate[name][end] for name in ("z", "vz", "vx")}
         motion = Motion(ends["z"], ends["vz"], ends["vx"], airborne)
         travelled[k], flights[k], gaps[k] = run.x[:, -1], longest / (2.0 * SAMPLES), motion.gap
     return Path(travelled, flights, gaps), motion
@@ -175,7 +177,8 @@ def follow(
 
 def summarize(path: Path, places: slice, half: float) -> dict[str, float]:
     """The MEASURES over some half cycles, which take `half` (s) each."""
-    velocity, jumps = path.travelled[places].mean(axis=0) / half, path.flight[places].max(axis=0) >= LONG_FLIGHT
+    velocity = path.travelled[places].mean(axis=0) / half
+    jumps = path.flight[places].max(axis=0) >= LONG_FLIGHT
     right = np.isfinite(velocity)
     row = dict.fromkeys((column.name for column in MEASURES), math.nan) | {"failed": np.count_nonzero(~right)}
     if right.any():
@@ -187,17 +190,17 @@ def summarize(path: Path, places: slice, half: float) -> dict[str, float]:
     return row
 
 
-def table_of(path: Path, amplitudes: np.ndarray, ways: np.ndarray, each: dict[str, int], half: float) -> list[dict]:
+def table_of(path: Path, amplitudes: np.ndarray, ways: np.ndarray, per_row: dict[str, int], half: float) -> list[dict]:
     """Rows of the table start.
 
     amplitudes, ways : of the half cycles, shape (k,)
-    each : half cycles per row, by the way
+    per_row : half cycles per row, by the way
     """
     rows, begin = [], 0
     while begin < len(amplitudes):
         way = ways[begin]
-        same = np.flatnonzero(ways[begin:] != way)
-        end = min(begin + each[way], begin + int(same[0]) if len(same) else len(ways))
+        changes = np.flatnonzero(ways[begin:] != way)
+        end = min(begin + per_row[way], begin + int(changes[0]) if len(changes) else len(ways))
         places = slice(begin, end)
         about = {"way": way, "time": 0.5 * (begin + end) * half, "acceleration": amplitudes[places].mean()}
         rows.append(about | summarize(path, places, half))
@@ -242,14 +245,15 @@ def limits_of(up: np.ndarray, down: np.ndarray, paths: tuple[Path, Path]) -> lis
 
     up, down : amplitudes (m/s²) of the half cycles of slow ramps
     """
-    rows, end = [], up[0] * (1.0 + 2 * CYCLES * STEP)
+    rows = []
+    end = up[0] * (1.0 + 2 * CYCLES * STEP)
     for way, amplitudes, path in zip((UP, DOWN), (up, down), paths, strict=True):
         lowest = np.where(path.flight >= LONG_FLIGHT, amplitudes[:, None], math.inf).min(axis=0)
         lowest[lowest <= end] = -math.inf
         varied = np.sort(lowest[1:]) if way == UP else np.sort(lowest[1:])[::-1]
         places = [max(math.ceil(share * len(varied)) - 1, 0) for share in LAST]
-        found = [(IDENTICAL, 1.0, lowest[0]), *((VARIED, *pair) for pair in zip(LAST, varied[places], strict=True))]
-        for kind, share, amplitude in found:
+        limits = [(IDENTICAL, 1.0, lowest[0]), *((VARIED, *pair) for pair in zip(LAST, varied[places], strict=True))]
+        for kind, share, amplitude in limits:
             status = JUMP_FIRST if amplitude == -math.inf else RIDE if amplitude == math.inf else "ok"
             amplitude = amplitude if status == "ok" else None
             rows.append({"way": way, "population": kind, "share": share, "acceleration": amplitude, "status": status})
@@ -291,9 +295,9 @@ def slow_ramps(settings: dict, **options) -> tuple[list[dict], list[dict]]:
     down = up[::-1]
     rising, motion = follow(rows, up, at_rest(rows), settings, **options)
     falling, _ = follow(rows, down, motion, settings, **options)
-    both = Path(*(np.concatenate(pair)[:, 1:] for pair in zip(rising, falling, strict=True)))
+    path = Path(*(np.concatenate(pair)[:, 1:] for pair in zip(rising, falling, strict=True)))
     ways = np.repeat((UP, DOWN), len(up))
-    table = table_of(both, np.concatenate([up, down]), ways, {UP: 2 * CYCLES, DOWN: 2 * CYCLES}, half)
+    table = table_of(path, np.concatenate([up, down]), ways, {UP: 2 * CYCLES, DOWN: 2 * CYCLES}, half)
     return [row | {"aim": SLOWLY, "parts": AT_REST} for row in table], limits_of(up, down, (rising, falling))
 
 
@@ -310,13 +314,14 @@ def make(
     samples, parameters : as in transit.make
     """
     settings = with_calibration(settings, samples, parameters)
-    options, half = {"threads": threads}, 0.5 / settings["model"]["frequency"]
+    options = {"threads": threads}
+    half = 0.5 / settings["model"]["frequency"]
     start, limits = slow_ramps(settings, **options)
     motions, pushes = [], []
     rows = population(np.ones(1), settings)
     for aim, amplitude in zip(advice.aim, advice.acceleration, strict=True):
         amplitudes, ways = switching(amplitude, settings)
-        each = {way: even_cycles(np.count_nonzero(ways == way) / ROWS) for way in WAYS}
+        per_row = {way: even_cycles(np.count_nonzero(ways == way) / ROWS) for way in WAYS}
         for kind in KINDS:
             motion = at_rest(rows)
             if kind != AT_REST:
@@ -337,6 +342,6 @@ def make(
                 pushes += [{"aim": aim, **row} for row in push(rows, amplitude, (motion, jumps), settings, **options)]
             falling, _ = follow(rows, amplitudes[fall:], motion, settings, **options)
             path = Path(*(np.concatenate(pair) for pair in zip(rising, falling, strict=True)))
-            start += [about | row for row in table_of(path, amplitudes[begin:], ways[begin:], each, half)]
+            start += [about | row for row in table_of(path, amplitudes[begin:], ways[begin:], per_row, half)]
     tables = {"start": start, "start_motions": motions, "start_limits": limits, "pushes": pushes}
     return {name: fields.columns(rows, TABLES[name]) for name, rows in tables.items()}

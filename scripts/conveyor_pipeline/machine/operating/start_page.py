@@ -45,23 +45,23 @@ WAYS = {
 
 def ways_at(aim: str, start: pd.DataFrame, motions: pd.DataFrame) -> list[dict]:
     """The motion at the amplitude of an aim after each of WAYS."""
-    rows = motions[motions.aim == aim].assign(way=lambda own: own.parts.map(WAYS))
+    rows = motions[motions.aim == aim].assign(way=lambda table: table.parts.map(WAYS))
     falling = start[(start.aim == SLOWLY) & (start.way == DOWN)]
     nearest = falling.iloc[[(falling.acceleration - rows.acceleration.iloc[0]).abs().argmin()]]
     nearest = nearest.assign(way=WAYS[DOWN], repeating=np.nan)
-    found = pd.concat([rows, nearest[["way", "velocity_05", "velocity_50", "jumping", "repeating", "failed"]]])
-    return found.replace({np.nan: None}).to_dict("records")
+    ways = pd.concat([rows, nearest[["way", "velocity_05", "velocity_50", "jumping", "repeating", "failed"]]])
+    return ways.replace({np.nan: None}).to_dict("records")
 
 
 def extremes(ways: list[dict]) -> dict[str, dict]:
     """The ways after which most and fewest parts jump, and those with the largest and the smallest median velocity, if
     any part could be followed."""
     known = [way for way in ways if way["jumping"] is not None]
-    found = {}
+    extreme_ways = {}
     for names, key in ((("least", "most"), "jumping"), (("slowest", "fastest"), "velocity_50")):
         ordered = sorted(known, key=lambda way: way[key])
-        found |= dict(zip(names, (ordered[0], ordered[-1]), strict=True)) if known else {}
-    return found
+        extreme_ways |= dict(zip(names, (ordered[0], ordered[-1]), strict=True)) if known else {}
+    return extreme_ways
 
 
 def depends(ways: list[dict], parts: int) -> bool:
@@ -72,9 +72,9 @@ def depends(ways: list[dict], parts: int) -> bool:
     return high - low > max(DEPENDS, CERTAIN * error)
 
 
-def is_faster(found: dict[str, dict]) -> bool:
+def is_faster(extreme_ways: dict[str, dict]) -> bool:
     """Whether the medians of `extremes` differ by more than FASTER."""
-    low, high = (found[name]["velocity_50"] for name in ("slowest", "fastest")) if found else (0.0, 0.0)
+    low, high = (extreme_ways[name]["velocity_50"] for name in ("slowest", "fastest")) if extreme_ways else (0.0, 0.0)
     return high - low > FASTER * max(abs(low), abs(high))
 
 
@@ -92,11 +92,11 @@ def make(
     runs = []
     for row in advice.to_dict("records"):
         ways = ways_at(row["aim"], start, start_motions)
-        own = pushes[pushes.aim == row["aim"]].replace({np.nan: None}).to_dict("records")
-        found = extremes(ways)
-        about = {key: row[key] for key in ("aim", "acceleration")} | found
-        about |= {"depends": depends(ways, settings["starts"]), "is_faster": is_faster(found)}
-        runs.append(about | {"ways": ways, "pushes": own})
+        pushes_of_aim = pushes[pushes.aim == row["aim"]].replace({np.nan: None}).to_dict("records")
+        extreme_ways = extremes(ways)
+        about = {key: row[key] for key in ("aim", "acceleration")} | extreme_ways
+        about |= {"depends": depends(ways, settings["starts"]), "is_faster": is_faster(extreme_ways)}
+        runs.append(about | {"ways": ways, "pushes": pushes_of_aim})
     if len(runs) == 2 and runs[0]["acceleration"] == runs[1]["acceleration"]:
         runs = [runs[0] | {"aim": f"{FAST} and {EVEN}"}]
     limits = {

@@ -42,7 +42,7 @@ def amplitude_range(supply: dict, frequency: float) -> tuple[float, float]:
     frequencies = [frequency + shift * (2.0 * k / POINTS - 1.0) for k in range(POINTS + 1)]
     # Near the resonance lies the largest amplitude.
     frequencies += [resonance] if abs(resonance - frequency) < shift else []
-    amplitudes = [amplitude(one, supply) / amplitude(frequency, supply) for one in frequencies]
+    amplitudes = [amplitude(value, supply) / amplitude(frequency, supply) for value in frequencies]
     power, _ = FORCES[supply["force"]]
     low, high = (1.0 - supply["voltage"]) ** power, (1.0 + supply["voltage"]) ** power
     return tuple(float(f"{end:.{DIGITS}g}") for end in (low * min(amplitudes), high * max(amplitudes)))

@@ -25,15 +25,15 @@ TABLES = {
 def settings_of_conveyor(settings: dict, model: dict) -> dict:
     """The settings of `shares` for a conveyor with the parameters `model`; the config has the others."""
     base = settings["model"]
-    own = base | model
-    gravity = normal_gravity(own) / normal_gravity(base)
-    period = base["frequency"] / own["frequency"]
+    conveyor_model = base | model
+    gravity = normal_gravity(conveyor_model) / normal_gravity(base)
+    period = base["frequency"] / conveyor_model["frequency"]
     speed = gravity * period
     box = {
         "height": [speed * period * end for end in settings["height"]],
         "vz0": [speed * end for end in settings["vz0"]],
     }
-    return {**settings, **box, "model": own}
+    return {**settings, **box, "model": conveyor_model}
 
 
 def make(models: dict[str, dict], settings: dict, *, threads: int = 1, progress: str | None = None) -> pd.DataFrame:
@@ -42,10 +42,10 @@ def make(models: dict[str, dict], settings: dict, *, threads: int = 1, progress:
     throws = np.linspace(**settings["throw_number"])
     tables = []
     for name, model in conveyors.items():
-        own = settings_of_conveyor(settings, model)
-        amplitudes = throws / throw_number(1.0, **own["model"])
+        conveyor_settings = settings_of_conveyor(settings, model)
+        amplitudes = throws / throw_number(1.0, **conveyor_settings["model"])
         label = progress and f"{progress}: {name}"
-        table = shares.shares_at(amplitudes, own, followed=FOLLOWED, threads=threads, progress=label)
-        textbook = throw_velocity(table.acceleration, **own["model"])
+        table = shares.shares_at(amplitudes, conveyor_settings, followed=FOLLOWED, threads=threads, progress=label)
+        textbook = throw_velocity(table.acceleration, **conveyor_settings["model"])
         tables.append(table.assign(conveyor=name, textbook=textbook))
     return pd.concat(tables, ignore_index=True)

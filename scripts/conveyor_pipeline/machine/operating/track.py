@@ -38,16 +38,17 @@ def settled_motions(
     """Number of the inclination, number of the state and period of each settled motion, shape (k,), its
     parameters, shape (k,), and whether a search ended before it had settled, for each inclination.
     """
-    starts, amplitude = settings["starts"], np.array([settings["acceleration"]])
+    starts = settings["starts"]
+    amplitude = np.array([settings["acceleration"]])
     models = [{**settings["model"], "inclination": value} for value in inclinations]
     rows = np.concatenate([population(amplitude, {**settings, "model": model}, IDENTICAL) for model in models])
     labels = label_starts(rows, settings, starts=starts, threads=threads)
     motions = []
     for number in range(len(inclinations)):
-        own = np.arange(number * starts, (number + 1) * starts)
+        row_numbers = np.arange(number * starts, (number + 1) * starts)
         for place, state in enumerate(STATES):
             # The trajectory with the most frequent period that settles first.
-            members = own[(labels.state[own] == state) & (labels.period[own] > 0)]
+            members = row_numbers[(labels.state[row_numbers] == state) & (labels.period[row_numbers] > 0)]
             if len(members):
                 period = np.bincount(labels.period[members]).argmax()
                 members = members[labels.period[members] == period]

@@ -105,7 +105,8 @@ def maritz_jarrett(data: np.ndarray) -> np.ndarray:
     """Standard errors of the quantiles of data, shape (n,) to (5,), as scipy.stats.mstats.mjci, whose import takes a
     second; NaN for too few data.
     """
-    count, errors = len(data), np.full(len(PROBABILITIES), np.nan)
+    count = len(data)
+    errors = np.full(len(PROBABILITIES), np.nan)
     data, x = np.sort(data), np.arange(1, count + 1, dtype=np.float64) / count
     for place, probability in enumerate(PROBABILITIES):
         above = int(count * probability + 0.5)
