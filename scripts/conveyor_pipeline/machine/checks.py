@@ -54,41 +54,45 @@ def durations(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 
 
 def supply(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    own, frequency = config["supply"], config["model"]["frequency"]
-    is_given = own != defaults["supply"] or stated.get("supply", own) != own
-    if "resonance" not in own and is_given:
+    section = config["supply"]
+    frequency = config["model"]["frequency"]
+    is_given = section != defaults["supply"] or stated.get("supply", section) != section
+    if "resonance" not in section and is_given:
         remedy = "give the resonance (Hz) of the drive with its load, or remove the section supply"
         yield f"supply.resonance is missing; {remedy}"
-    if "resonance" not in own:
+    if "resonance" not in section:
         return
-    resonance = f"supply.resonance = {own['resonance']!r} Hz"
+    resonance = f"supply.resonance = {section['resonance']!r} Hz"
     remedy = "give the resonance in which the drive with its load moves along the direction of vibration"
-    if own["resonance"] > FARTHEST * frequency:
+    if section["resonance"] > FARTHEST * frequency:
         limit = f"at most {FARTHEST * frequency:g} Hz, or check model.frequency"
         yield f"{resonance} is more than {FARTHEST:g} times model.frequency = {frequency!r} Hz; {remedy}, {limit}"
     # Unbalanced masses and voice coils may run far above the resonance of soft springs, an electromagnet cannot.
-    if own["force"] == "voltage²" and FARTHEST * own["resonance"] < frequency:
+    if section["force"] == "voltage²" and FARTHEST * section["resonance"] < frequency:
         yield f"{resonance} is less than 1/{FARTHEST:g} of model.frequency = {frequency!r} Hz; {remedy}"
-    if own["frequency"] >= frequency:
-        yield f"supply.frequency = {own['frequency']!r} Hz is not below model.frequency = {frequency!r} Hz; give less"
+    if section["frequency"] >= frequency:
+        yield (
+            f"supply.frequency = {section['frequency']!r} Hz is not below model.frequency = {frequency!r} Hz; give less"
+        )
 
 
 def calibration(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Settings that contradict each other, and faults in the file of measurements."""
-    own = config["calibration"]
-    if config["parts"].get("calibrated") and "measurements" not in own:
+    section = config["calibration"]
+    if config["parts"].get("calibrated") and "measurements" not in section:
         yield "parts.calibrated needs measurements; name the config with calibration.measurements as well"
-    if (path := own.get("measurements")) is None:
+    if (path := section.get("measurements")) is None:
         return
     origins = origins_of(config)
-    for name in own["parameters"]:
+    for name in section["parameters"]:
         if name in origins:
             yield (
                 f"calibration.parameters has {name}, which the section {origins[name]} gives; take it out of the "
                 f"parameters, or give model.{name} in place of the section"
             )
-    static, lowest = config["model"].get("static_friction"), own["ranges"]["friction"][0]
-    if "friction" in own["parameters"] and static is not None and static <= lowest:
+    static = config["model"].get("static_friction")
+    lowest = section["ranges"]["friction"][0]
+    if "friction" in section["parameters"] and static is not None and static <= lowest:
         yield (
             f"model.static_friction = {static!r} leaves no friction to search, because calibration.ranges.friction "
             f"begins at {lowest!r}; begin lower, or take friction out of calibration.parameters"
@@ -97,32 +101,32 @@ def calibration(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         text = csv_table.read_text(path, "calibration.measurements", measurements.MOST_BYTES)
         known = measurements.wanted(RANGES)
         table = csv_table.parse(text, path, known, measurements.HEADER_UNITS, measurements.EXAMPLE)
-        measurements.parse(table, {**own, "model": config["model"]}, RANGES)
+        measurements.parse(table, {**section, "model": config["model"]}, RANGES)
     except csv_table.TableError as error:
         yield from error.faults
 
 
 def excitation(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Faults in the file of an accelerometer and in its signal."""
-    own, clean = config["excitation"], config["clean_drive"]
+    section, clean = config["excitation"], config["clean_drive"]
     if (share := STATEMENT["share"]) not in clean["shares"]:
         yield f"clean_drive.shares = {clean['shares']!r} lacks {share!r}, the share of the statement on chaos; add it"
-    if (path := own.get("measured")) is None:
+    if (path := section.get("measured")) is None:
         return
     # Only configs with such a file need NumPy, SciPy and pandas.
     from conveyor_pipeline.machine.excitation import faults, reading
 
-    if "rate" in own and "time" in own.get("columns", {}):
+    if "rate" in section and "time" in section.get("columns", {}):
         yield "excitation has both rate and columns.time; state one of them"
         return
     model = config["model"]
     # Also if it is the default.
     states_frequency = "frequency" in (stated.get("model") or {})
     is_given = states_frequency or model["frequency"] != defaults["model"]["frequency"]
-    settings = {**own, "inclination": model["inclination"], "frequency": model["frequency"] if is_given else None}
+    settings = {**section, "inclination": model["inclination"], "frequency": model["frequency"] if is_given else None}
     try:
         text = csv_table.read_text(path, "excitation.measured", reading.MOST_BYTES)
-        table = csv_table.parse(text, path, reading.wanted(own), reading.HEADER_UNITS, reading.EXAMPLE)
+        table = csv_table.parse(text, path, reading.wanted(section), reading.HEADER_UNITS, reading.EXAMPLE)
         faults.checked(table, settings)
     except csv_table.TableError as error:
         yield from error.faults
@@ -146,14 +150,15 @@ def millimetres(stated: dict, key: str, value: float) -> str:
 
 def drive(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """A velocity that no design of the search can reach."""
-    own, bounds = config["drive"], config["drive"]["bounds"]
+    section = config["drive"]
+    bounds = config["drive"]["bounds"]
     slowest = {**config["model"], "frequency": bounds["frequency"][0], "angle": bounds["angle"][0]}
     speed = measurements.plate_velocity(bounds["acceleration"][1], slowest)
     # On a track that descends, gravity may add to the velocity.
     descends = config["model"]["inclination"] < 0.0
-    if own["velocity"] != defaults["drive"]["velocity"] and own["velocity"] > speed and not descends:
+    if section["velocity"] != defaults["drive"]["velocity"] and section["velocity"] > speed and not descends:
         yield (
-            f"drive.velocity = {own['velocity']!r} m/s cannot be reached, because the plate moves at most at "
+            f"drive.velocity = {section['velocity']!r} m/s cannot be reached, because the plate moves at most at "
             f"{speed:.3g} m/s within drive.bounds; give less, or wider bounds"
         )
 

@@ -27,13 +27,14 @@ def verdict(difference: float, stderr: float, limit: float) -> str:
 
 def numbers(*, bodies: pd.DataFrame, shapes: pd.DataFrame) -> dict:
     settings = bodies.attrs
-    model, effort, size = settings["model"], settings["effort"], shapes.difference.abs()
+    model, effort = settings["model"], settings["effort"]
+    size = shapes.difference.abs()
     statements = {}
     for motion, limit in STATEMENT.items():
-        own = shapes[shapes.motion == motion]
+        rows = shapes[shapes.motion == motion]
         statements[motion] = {"limit": f"{100.0 * limit:g}", "difference": None}
-        if own.difference.notna().any():
-            largest = own.loc[own.difference.abs().idxmax()]
+        if rows.difference.notna().any():
+            largest = rows.loc[rows.difference.abs().idxmax()]
             statements[motion] |= {
                 "difference": 100.0 * abs(largest.difference),
                 "stderr": 100.0 * largest.difference_stderr,

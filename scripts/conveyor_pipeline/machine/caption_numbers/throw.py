@@ -10,13 +10,13 @@ TEXTBOOK_AGREES = 0.1  # largest relative difference from the textbook velocity 
 
 def numbers(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> dict:
     jumps = throws[(throws.state == "second") & (throws.vertical < 1.0)].groupby("conveyor", sort=False).vertical.min()
-    most = throws.loc[throws.groupby(["conveyor", "vertical"], sort=False).share.idxmax()]
-    most = most[(most.vertical > 1.0) & most.textbook.notna()]
-    close = (most.mean_velocity - most.textbook).abs() <= TEXTBOOK_AGREES * most.textbook
+    likeliest = throws.loc[throws.groupby(["conveyor", "vertical"], sort=False).share.idxmax()]
+    likeliest = likeliest[(likeliest.vertical > 1.0) & likeliest.textbook.notna()]
+    close = (likeliest.mean_velocity - likeliest.textbook).abs() <= TEXTBOOK_AGREES * likeliest.textbook
     fold = proved_fold(throws, bifurcations)
     return {
         "jumps": jumps.to_dict(),
         "fold": None if np.isnan(fold) else fold,
         "within": TEXTBOOK_AGREES,
-        "agree": close.groupby(most.conveyor, sort=False).agg(["sum", "count"]).to_dict("index"),
+        "agree": close.groupby(likeliest.conveyor, sort=False).agg(["sum", "count"]).to_dict("index"),
     }

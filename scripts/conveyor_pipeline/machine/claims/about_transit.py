@@ -14,9 +14,9 @@ def exponents(lengths: pd.DataFrame, regime: str) -> dict[float, float]:
     """The exponent of the relative spread over the length of the track, by the amplitude (m/s²), in a regime."""
     rows = lengths[(lengths.regime == regime) & (lengths.spread > 0.0)]
     return {
-        acceleration: fit_line(np.log(of.length.to_numpy()), np.log(of.spread.to_numpy()))[0]
-        for acceleration, of in rows.groupby("acceleration")
-        if len(of) > 1
+        acceleration: fit_line(np.log(group.length.to_numpy()), np.log(group.spread.to_numpy()))[0]
+        for acceleration, group in rows.groupby("acceleration")
+        if len(group) > 1
     }
 
 

@@ -40,10 +40,10 @@ def draw_velocities(axes: Axes, fit: pd.DataFrame, prediction: pd.DataFrame) -> 
         (fit.fits & fit.changed, {**fitting, "markerfacecolor": "white", "label": "measured under other conditions"}),
         (~fit.fits, {"color": MISFIT, "marker": "X", "markersize": 4.0, "label": "does not fit"}),
     ):
-        own = fit[chosen]
-        if len(own):
+        rows = fit[chosen]
+        if len(rows):
             options = {"linestyle": "none", "markeredgewidth": 0.6}
-            axes.errorbar(own.acceleration, own.velocity, yerr=2.0 * own.sd, elinewidth=0.6, **options, **look)
+            axes.errorbar(rows.acceleration, rows.velocity, yerr=2.0 * rows.sd, elinewidth=0.6, **options, **look)
     axes.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     axes.set_xlabel(style.AMPLITUDE)
     style.velocity_axis(axes.yaxis)
@@ -56,11 +56,11 @@ def label_of(row: pd.Series) -> str:
     return name if row.unit == "1" else f"{name} in {row.unit}"
 
 
-def scale(axes: Axes, which: str, name: str, values: np.ndarray) -> None:
+def scale(axes: Axes, direction: str, name: str, values: np.ndarray) -> None:
     """The scale and the ticks of an axis of a parameter: logarithmic if the values differ by much."""
-    axis = getattr(axes, f"{which}axis")
+    axis = getattr(axes, f"{direction}axis")
     if name in LOGARITHMIC and values.max() > MUCH * values.min():
-        getattr(axes, f"set_{which}scale")("log")
+        getattr(axes, f"set_{direction}scale")("log")
         if values.max() > MANY * values.min() or values.max() >= LONG:
             axis.set_major_locator(LogLocator(numticks=4))
         else:
@@ -70,39 +70,39 @@ def scale(axes: Axes, which: str, name: str, values: np.ndarray) -> None:
     else:
         axis.set_major_locator(MaxNLocator(3))
         axis.set_major_formatter(ScalarFormatter(useMathText=True))
-        axes.ticklabel_format(axis=which, scilimits=(-3, 4))
+        axes.ticklabel_format(axis=direction, scilimits=(-3, 4))
 
 
 def draw_posterior(panels: np.ndarray, parameters: pd.DataFrame, samples: pd.DataFrame) -> None:
     """Histograms of the parameters on the diagonal of `panels`, shape (d, d), and pairs of parameters below it."""
     rows = list(parameters.itertuples())
-    for below, own in enumerate(rows):
-        for beside, other in enumerate(rows):
+    for below, vertical in enumerate(rows):
+        for beside, horizontal in enumerate(rows):
             axes = panels[below, beside]
             if beside > below:
                 axes.set_visible(False)
                 continue
-            x = samples[other.parameter].to_numpy()
-            scale(axes, "x", other.parameter, x)
+            x = samples[horizontal.parameter].to_numpy()
+            scale(axes, "x", horizontal.parameter, x)
             if beside == below:
-                log = other.parameter in LOGARITHMIC
+                log = horizontal.parameter in LOGARITHMIC
                 edges = np.geomspace(x.min(), x.max(), BINS) if log else np.linspace(x.min(), x.max(), BINS)
                 axes.hist(x, edges, color="0.75")
-                axes.axvline(own.best, color="black", linewidth=0.8)
-                for end in (own.low, own.high):
+                axes.axvline(vertical.best, color="black", linewidth=0.8)
+                for end in (vertical.low, vertical.high):
                     axes.axvline(end, color="black", linewidth=0.8, linestyle=(0, (3, 2)))
                 axes.set_yticks([])
             else:
-                y = samples[own.parameter].to_numpy()
-                scale(axes, "y", own.parameter, y)
+                y = samples[vertical.parameter].to_numpy()
+                scale(axes, "y", vertical.parameter, y)
                 axes.plot(x, y, linestyle="none", marker=".", markersize=2.0, color="0.4", rasterized=True)
-                axes.plot([other.best], [own.best], marker="+", color="black", markersize=7.0)
+                axes.plot([horizontal.best], [vertical.best], marker="+", color="black", markersize=7.0)
             if below == len(rows) - 1:
-                axes.set_xlabel(label_of(other))
+                axes.set_xlabel(label_of(horizontal))
             else:
                 axes.tick_params(labelbottom=False)
             if beside == 0 and below > 0:
-                axes.set_ylabel(label_of(own))
+                axes.set_ylabel(label_of(vertical))
             elif beside != below:
                 axes.tick_params(labelleft=False)
 

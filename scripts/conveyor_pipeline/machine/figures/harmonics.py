@@ -27,10 +27,10 @@ def draw_changes(axes: Axes, changes: pd.DataFrame) -> None:
     """The change over the phase, a line for each order and share."""
     shares = sorted(changes.share.unique())
     strengths = dict(zip(shares, np.linspace(PALEST, 1.0, len(shares)) if len(shares) > 1 else [1.0], strict=True))
-    for (order, share), own in changes.groupby(["order", "share"]):
+    for (order, share), group in changes.groupby(["order", "share"]):
         label = f"{100 * share:g} % of a {ORDINALS.get(order, f'{order}th')} harmonic"
         look = {"color": COLOURS.get(order, OTHER), "alpha": strengths[share], "label": label, "linewidth": 1.2}
-        rows = around(own)
+        rows = around(group)
         axes.plot(rows.phase, 100.0 * rows.change, marker="o", markersize=2.0, **look)
 
 
@@ -43,11 +43,11 @@ def plot(*, drives: pd.DataFrame) -> Figure:
         enumerate(MEASURES.items()), enumerate(amplitudes.itertuples())
     ):
         axes = panels[row][column]
-        own = changes[(changes.measure == name) & (changes.acceleration == place.acceleration)]
-        error = 100.0 * SURE * own.stderr.median()
+        panel_changes = changes[(changes.measure == name) & (changes.acceleration == place.acceleration)]
+        error = 100.0 * SURE * panel_changes.stderr.median()
         axes.axhspan(-error, error, color="0.88", linewidth=0.0, zorder=0)
         axes.axhline(0.0, color="black", linewidth=0.4, zorder=0)
-        draw_changes(axes, own)
+        draw_changes(axes, panel_changes)
         if row == 0:
             axes.set_title(f"{place.acceleration:g} m/s², {place.regime}")
         if column == 0:

@@ -38,7 +38,8 @@ def draw_regimes(strip: Axes, shares: pd.DataFrame, regimes: pd.DataFrame) -> li
 def mark_advice(axes: Axes, advice: pd.DataFrame) -> None:
     """Draw a line with a label at each advised amplitude, above all that is drawn before."""
     middle = np.mean(axes.get_xlim())
-    lines, scale = advice.acceleration.nunique(), axes.yaxis.get_transform()
+    lines = advice.acceleration.nunique()
+    scale = axes.yaxis.get_transform()
     low, high = scale.transform(axes.get_ylim())
     axes.set_ylim(top=scale.inverted().transform(low + (high - low) / (1.0 - LABEL * lines)))
     for line, (acceleration, aims) in enumerate(advice.groupby("acceleration", sort=False).aim):

@@ -13,12 +13,12 @@ COLOURS = {UP: "#0072B2", DOWN: "#D55E00"}
 
 def draw_ways(velocities: Axes, shares: Axes, rows: pd.DataFrame) -> None:
     """Draw median and slowest 5 %, and the share of parts that jump, by the way of the amplitude."""
-    for way, own in rows[rows.way != STAY].groupby("way", sort=False):
+    for way, group in rows[rows.way != STAY].groupby("way", sort=False):
         look = {"color": COLOURS[way], "linewidth": 1.2}
-        velocities.plot(own.acceleration, 100.0 * own.velocity_50, label=f"{way}: median", **look)
+        velocities.plot(group.acceleration, 100.0 * group.velocity_50, label=f"{way}: median", **look)
         slowest = {"linestyle": (0, (3, 2)), "label": f"{way}: slowest 5 %"}
-        velocities.plot(own.acceleration, 100.0 * own.velocity_05, **look | {"linewidth": 0.8} | slowest)
-        shares.plot(own.acceleration, 100.0 * own.jumping, **look)
+        velocities.plot(group.acceleration, 100.0 * group.velocity_05, **look | {"linewidth": 0.8} | slowest)
+        shares.plot(group.acceleration, 100.0 * group.jumping, **look)
     velocities.axhline(0.0, color="black", linewidth=0.4, zorder=0)
     velocities.set_ylabel("velocity in cm/s")
     shares.set_ylabel("jumping parts in %")

@@ -22,13 +22,13 @@ def plot(*, throws: pd.DataFrame, bifurcations: pd.DataFrame) -> Figure:
     figure = style.figure(style.PAGE, 52.0 * rows + 17.0)
     panels = figure.subplots(rows, 2, sharex=True, squeeze=False)
     for axes, name in zip(panels.flat, names, strict=False):
-        own = throws[throws.conveyor == name]
-        textbook = own.drop_duplicates("vertical")
-        draw_motions(axes, own, "vertical")
+        conveyor_throws = throws[throws.conveyor == name]
+        textbook = conveyor_throws.drop_duplicates("vertical")
+        draw_motions(axes, conveyor_throws, "vertical")
         axes.plot(textbook.vertical, textbook.textbook, **style.TEXTBOOK)
         axes.autoscale_view(scalex=False)
         axes.axhline(0.0, color="black", linewidth=0.4, zorder=0)
-        axes.axvspan(own.vertical.min(), 1.0, color="0.94", linewidth=0.0, zorder=-1)
+        axes.axvspan(conveyor_throws.vertical.min(), 1.0, color="0.94", linewidth=0.0, zorder=-1)
         axes.set_title(name)
     style.mark(panels[0, 0], proved_fold(throws, bifurcations), "proved fold")
     for axes in panels[-1]:

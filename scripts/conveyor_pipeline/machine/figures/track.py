@@ -21,13 +21,13 @@ def plot(*, track: pd.DataFrame) -> Figure:
         axes.set_xticks(list(PHASES.values()), PHASES)
         axes.set_xlim(track.phase_shift.min(), track.phase_shift.max())
     for axes, state in zip(panels, states, strict=False):
-        own = track[track.state == state].pivot(index="inclination", columns="phase_shift", values="mean_velocity")
-        x, y = own.columns.to_numpy(), np.degrees(own.index.to_numpy())
+        grid = track[track.state == state].pivot(index="inclination", columns="phase_shift", values="mean_velocity")
+        x, y = grid.columns.to_numpy(), np.degrees(grid.index.to_numpy())
         colours = {"cmap": "PuOr_r", "vmin": -largest, "vmax": largest}
-        image = axes.pcolormesh(x, y, own, shading="nearest", rasterized=True, **colours)
+        image = axes.pcolormesh(x, y, grid, shading="nearest", rasterized=True, **colours)
         axes.set_facecolor("0.85")
-        if own.min(axis=None) < 0.0 < own.max(axis=None):
-            axes.contour(x, y, own, levels=[0.0], colors="black", linewidths=1.0)
+        if grid.min(axis=None) < 0.0 < grid.max(axis=None):
+            axes.contour(x, y, grid, levels=[0.0], colors="black", linewidths=1.0)
         axes.axhline(0.0, color="black", linewidth=0.4, linestyle=":")
         axes.axvline(0.0, color="black", linewidth=0.4, linestyle=":")
         axes.set_title(style.state_label(state), color=style.STATE_COLOURS[state])

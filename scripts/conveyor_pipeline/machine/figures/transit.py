@@ -23,7 +23,8 @@ def populations_of(transit: pd.DataFrame) -> tuple[str, ...]:
 def draw_bands(axes: Axes, transit: pd.DataFrame) -> None:
     """The median, and the band with 90 % of the parts, of each population; the band of varied parts as two lines."""
     for population in populations_of(transit):
-        rows, colour = transit[transit.population == population], COLOURS[population]
+        rows = transit[transit.population == population]
+        colour = COLOURS[population]
         label = f"{LABELS[population]}: median, and 5 to 95 %"
         axes.plot(
             rows.acceleration, 100.0 * rows.velocity_50, style.line(rows), color=colour, label=label, linewidth=1.3
@@ -43,8 +44,8 @@ def draw_bands(axes: Axes, transit: pd.DataFrame) -> None:
 def draw_lengths(axes: Axes, lengths: pd.DataFrame) -> None:
     """The relative spread over the length at each amplitude, with the spread that drift and diffusion predict."""
     if not (lengths.spread > 0.0).any():
-        few = "at no amplitude of the table do\nmotions coexist or is chaos alone"
-        style.say(axes, "all velocities are equal,\nor half of the parts do not move" if len(lengths) else few)
+        reason = "at no amplitude of the table do\nmotions coexist or is chaos alone"
+        style.say(axes, "all velocities are equal,\nor half of the parts do not move" if len(lengths) else reason)
         axes.set(xticks=[], yticks=[])
         return
     numbers = dict.fromkeys(lengths.regime, 0)
@@ -60,7 +61,8 @@ def draw_lengths(axes: Axes, lengths: pd.DataFrame) -> None:
     if lengths.predicted.notna().any():
         look = {"color": style.STATE_COLOURS["chaos"], "linewidth": 0.9, "linestyle": (0, (3, 2))}
         axes.plot([], [], label="by drift and diffusion", **look)
-        ends, highest = np.array([lengths.length.min(), lengths.length.max()]), lengths.predicted.max()
+        ends = np.array([lengths.length.min(), lengths.length.max()])
+        highest = lengths.predicted.max()
         axes.plot(ends, 1.5 * highest * (ends / ends[0]) ** -0.5, color="0.5", linewidth=0.8, label="slope −1/2")
     axes.set_xscale("log")
     axes.set_yscale("log")
