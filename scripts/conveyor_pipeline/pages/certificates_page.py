@@ -23,10 +23,10 @@ def feigenbaum_ratios(bifurcations: pd.DataFrame) -> list[tuple[float, float]]:
     """Bounds of Feigenbaum's ratios of the proved doublings, which follow from the bounds of the amplitudes."""
     rows = bifurcations[(bifurcations.kind == "period_doubling") & bifurcations.proved]
     low, high = rows.acceleration_low.to_numpy(), rows.acceleration_high.to_numpy()
-    least = (low[1:-1] - high[:-2]) / (high[2:] - low[1:-1])
-    most = (high[1:-1] - low[:-2]) / (low[2:] - high[1:-1])
+    lower = (low[1:-1] - high[:-2]) / (high[2:] - low[1:-1])
+    upper = (high[1:-1] - low[:-2]) / (low[2:] - high[1:-1])
     # A margin far beyond the rounding errors of the division above.
-    return list(zip(least * (1.0 - 1e-12), most * (1.0 + 1e-12), strict=True))
+    return list(zip(lower * (1.0 - 1e-12), upper * (1.0 + 1e-12), strict=True))
 
 
 def make(

@@ -22,7 +22,8 @@ def count_labels(points: pd.DataFrame) -> pd.DataFrame:
 
 def make(template: str, theory: pd.DataFrame, map_check: pd.DataFrame, bodies: pd.DataFrame) -> str:
     """The page from its template, with the tables of closed forms, of checked map points and of blocks."""
-    different, points = int((map_check.label != map_check.state).sum()), len(map_check)
+    different = int((map_check.label != map_check.state).sum())
+    points = len(map_check)
     values = {
         "theory": theory,
         "rounding": ROUNDING,

@@ -8,9 +8,12 @@ from conveyor_pipeline.config.entries import by_methods
 
 def companion(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Static friction below sliding friction, and sweeps that the config does not have."""
-    own, sweeps = config["companion"], by_methods(config)["sweeps"]
-    yield from faults_of_friction(config, {f"companion.presets.{name}": one for name, one in own["presets"].items()})
-    yield from faults_of_names((f"companion.maps[{place}]", name, sweeps) for place, name in enumerate(own["maps"]))
+    section = config["companion"]
+    sweeps = by_methods(config)["sweeps"]
+    yield from faults_of_friction(
+        config, {f"companion.presets.{name}": preset for name, preset in section["presets"].items()}
+    )
+    yield from faults_of_names((f"companion.maps[{place}]", name, sweeps) for place, name in enumerate(section["maps"]))
 
 
 CHECKS = (companion,)

@@ -85,7 +85,8 @@ def unit_of(schema: dict) -> str:
 
 def list_keys(schema: dict, path: tuple[str, ...] = ()) -> Iterator[Key]:
     """All keys of the schema, in its order."""
-    (inner, *more), allowed = options_of(schema), describe_values(schema)
+    (inner, *further) = options_of(schema)
+    allowed = describe_values(schema)
     properties = inner.get("properties", {})
     if path != ("model",) and properties.keys() >= {"acceleration", "mass"}:
         yield Key(path, "keys of `model`", "", schema["description"])
@@ -95,7 +96,7 @@ def list_keys(schema: dict, path: tuple[str, ...] = ()) -> Iterator[Key]:
     elif allowed == "keys below":
         entry = inner.get("additionalProperties") or next(iter(inner["patternProperties"].values()))
         yield from list_keys(entry, (*path, "NAME"))
-    elif not more and allowed == "list; each item: keys below":
+    elif not further and allowed == "list; each item: keys below":
         yield from list_keys(inner["items"], (*path, "[]"))
     else:
         yield Key(path, allowed, unit_of(schema), schema["description"])

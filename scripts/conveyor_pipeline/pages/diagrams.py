@@ -36,9 +36,9 @@ def draw_cycle() -> style.Figure:
     axes.plot(times, 1e3 * plate["z"], **style.PLATE_CURVE)
     axes.plot(times, 1e3 * part["z"], color=style.CONVERGED, label="part (parabola in flight)")
     for kind, marker in (("impact", "v"), ("separation", "^")):
-        at = event_times(run, kind, begin)
+        t = event_times(run, kind, begin)
         axes.plot(
-            at, 1e3 * run.sample(at)["z"], marker, color=style.EULER, markersize=5, label=f"{kind} (root of the gap)"
+            t, 1e3 * run.sample(t)["z"], marker, color=style.EULER, markersize=5, label=f"{kind} (root of the gap)"
         )
     axes.set_xlabel("time in s")
     axes.set_ylabel("height in mm")

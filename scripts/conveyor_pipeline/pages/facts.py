@@ -52,7 +52,7 @@ def names_by_verdict(claims: pd.DataFrame) -> dict[str, list[str]]:
 def late_limits(claims: pd.DataFrame) -> list[str]:
     """The names of the claims with a limit that was set when the numbers were known."""
     return claims.id[
-        claims.because.map(lambda reasons: any("when the numbers were known" in one for one in reasons))
+        claims.because.map(lambda reasons: any("when the numbers were known" in reason for reason in reasons))
     ].tolist()
 
 

@@ -35,7 +35,8 @@ def compare_flat(bodies: pd.DataFrame) -> dict[str, Any]:
     `stderr`, its least and largest standard error, and the relative spreads there; `slow`, the largest relative
     difference of the lower quantiles where all blocks ride. None stands for what the table does not contain.
     """
-    model, rows = bodies.attrs["model"], beside_points(bodies)
+    model = bodies.attrs["model"]
+    rows = beside_points(bodies)
     length = length_scale(model)
     two = {"points": two_velocities(rows, "point"), "flat": two_velocities(rows, "flat")}
     chaos = rows[rows.acceleration.round(1) > max([*two["points"], *two["flat"]], default=0.0)]

@@ -106,9 +106,9 @@ def list_entries(known: list[Key], defaults: list[FileKey]) -> dict[str, list[di
     named = {key.path[0] for key in known if len(key.path) > 1 and key.path[1] == "NAME"}
     entries = {section: [] for section in named}
     for key in defaults:
-        section, *rest = key.path
-        if section in named and len(rest) == 1:
-            entries[section].append({"name": rest[0], "comment": key.above or key.beside})
+        section, *names = key.path
+        if section in named and len(names) == 1:
+            entries[section].append({"name": names[0], "comment": key.above or key.beside})
     return entries
 
 
@@ -165,7 +165,7 @@ def make(
         **collected,
         "figures": described,
         "tightened": len(changes),
-        "same_verdicts": sum(one["same_verdict"] for one in changes.values()),
+        "same_verdicts": sum(change["same_verdict"] for change in changes.values()),
         "gaps": find_gaps(defaults),
         "keys": group_keys(known, defaults),
         "entries": list_entries(known, defaults),

@@ -24,21 +24,21 @@ def block(self: SphinxTranslator, node: nodes.math_block) -> None:
     raise nodes.SkipNode
 
 
-def escape(app: Sphinx, what: str, name: str, of: Any, options: Any, lines: list[str]) -> None:
+def escape(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
     """Escape bars and asterisks, because docstrings are plain text."""
     lines[:] = [LITERAL.sub(r"\\\1", line) for line in lines]
 
 
 def shorten(
-    app: Sphinx, what: str, name: str, of: Any, options: Any, signature: str | None, returned: str | None
+    app: Sphinx, what: str, name: str, obj: Any, options: Any, signature: str | None, returned: str | None
 ) -> tuple[str | None, str | None]:
     """The signature with the name ArrayLike in place of its expansion."""
     return signature and ARRAY_LIKE.sub("ArrayLike", signature), returned
 
 
-def skip(app: Sphinx, what: str, name: str, of: Any, skipped: bool, options: Any) -> bool | None:
+def skip(app: Sphinx, what: str, name: str, obj: Any, skipped: bool, options: Any) -> bool | None:
     """Skip fields of named tuples that have no docstring."""
-    return True if str(getattr(of, "__doc__", "")).startswith("Alias for field number") else None
+    return True if str(getattr(obj, "__doc__", "")).startswith("Alias for field number") else None
 
 
 def setup(app: Sphinx) -> dict[str, bool]:

@@ -28,7 +28,7 @@ def file_of(kind: str, kinds: Collection[str], stage: str) -> str:
     if kind in NAMED:
         return f"results/{kind}/NAME.parquet"
     folders = [reference.split("/")[0] for reference in TABLES if reference.split("/")[1] == kind] or [stage]
-    folder = next((one for one in folders if all(f"{one}/{other}" in TABLES for other in kinds)), folders[0])
+    folder = next((place for place in folders if all(f"{place}/{name}" in TABLES for name in kinds)), folders[0])
     return f"results/{kind}.parquet" if folder == "results" else f"results/{folder}/{kind}.parquet"
 
 

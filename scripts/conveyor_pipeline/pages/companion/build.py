@@ -54,13 +54,13 @@ def encode(table: pd.DataFrame) -> dict:
     return {**axes, "model": model, "states": base64.b64encode(packed.tobytes()).decode()}
 
 
-def accuracy_text(measured: dict) -> str:
+def accuracy_text(accuracy: dict) -> str:
     """How far the page is from the library, as tests/pages/test_companion.py measures it in a browser."""
     return (
-        f"Tests compare the page with an accurate solution at {measured['settings']} random settings of its controls. "
-        f"At {measured['within_a_line']} settings, the curves of height and velocity differ by less than "
+        f"Tests compare the page with an accurate solution at {accuracy['settings']} random settings of its controls. "
+        f"At {accuracy['within_a_line']} settings, the curves of height and velocity differ by less than "
         f"{100 * LINE:g} % of the height of their plots, as long as the page does not mark the motion as unresolved. "
-        f"Half of the mean velocities have a relative error below {100 * measured['median_velocity_error']:.1g} %."
+        f"Half of the mean velocities have a relative error below {100 * accuracy['median_velocity_error']:.1g} %."
     )
 
 
@@ -77,8 +77,8 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
     ValueError
         if a file cannot be inserted into page.html
     """
-    own = settings["companion"]
-    models = [settings["model"], *own["presets"].values(), *(table.attrs["model"] for table in maps)]
+    section = settings["companion"]
+    models = [settings["model"], *section["presets"].values(), *(table.attrs["model"] for table in maps)]
     if any(model.get("harmonics") for model in models):
         raise JobError("the interactive page draws no harmonics of the plate; leave model.harmonics out to make it")
     data = {
@@ -87,7 +87,7 @@ def make(maps: list[pd.DataFrame], settings: dict) -> str:
         "ranges": RANGES,
         "tangential": TANGENTIAL,
         "solver": {name: settings["solver"][name] for name in ("duration", "step")},
-        "presets": own["presets"],
+        "presets": section["presets"],
         "opening": OPENING,
         "separation": SEPARATION,
         "last": LAST,
