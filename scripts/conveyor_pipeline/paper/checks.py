@@ -24,7 +24,8 @@ def critical(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         for part in ("axes", "model"):
             if "z0" in entry.get(part, ()):
                 yield f"critical.{name}.{part}.z0 is the scanned parameter; give its values as critical.{name}.scan"
-    name, single = config["sensitivity"]["critical"], by_methods(config)
+    name = config["sensitivity"]["critical"]
+    single = by_methods(config)
     entry = resolve(single, "critical", name) if name in single["critical"] else None
     if entry and (set(entry["axes"]) != {"acceleration"} or entry["method"] != "event"):
         yield f"sensitivity.critical = {name!r} must name an entry over acceleration alone, with the method event"
@@ -51,12 +52,12 @@ def orbits(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 def regressions(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Values of B at which the pole of Eq. 13, at the amplitude -B, lies between the fitted amplitudes."""
     for name, entry in config["regressions"].items():
-        least, largest = entry["acceleration"]
+        smallest, largest = entry["acceleration"]
         for key, (low, high) in (("bounds.B", entry["bounds"]["B"]), ("valley", ends(entry["valley"]))):
-            if low + least <= 0.0 <= high + largest:
+            if low + smallest <= 0.0 <= high + largest:
                 yield (
                     f"regressions.{name}.{key} from {low!r} to {high!r} m/s² has a pole of Eq. 13 within "
-                    f"regressions.{name}.acceleration; begin above {-least!r}, or end below {-largest!r}"
+                    f"regressions.{name}.acceleration; begin above {-smallest!r}, or end below {-largest!r}"
                 )
 
 
@@ -73,7 +74,7 @@ def dimensions(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 def unknown_names(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Entries that the config does not have, and claims that the paper does not have."""
     fitted = by_methods(config)["critical"]
-    used = [(f"regressions.{name}.critical", one["critical"], fitted) for name, one in config["regressions"].items()]
+    used = [(f"regressions.{name}.critical", item["critical"], fitted) for name, item in config["regressions"].items()]
     used += [("sensitivity.critical", config["sensitivity"]["critical"], fitted)]
     named = enumerate(config["uncertainty"]["claims"])
     used += [(f"uncertainty.claims[{place}]", name, read_claims()) for place, name in named]

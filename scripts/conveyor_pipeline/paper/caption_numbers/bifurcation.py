@@ -16,7 +16,8 @@ def accumulation(*, spectrum: pd.DataFrame, cascade: pd.DataFrame) -> dict:
     limits = cascade.accumulation.dropna()
     if limits.empty:
         return {"accumulation": None}
-    place, runs = limits.iloc[-1], {}
+    place = limits.iloc[-1]
+    runs = {}
     for branch, rows in spectrum.sort_values("acceleration", kind="stable").groupby("branch"):
         early = rows[rows.acceleration < place]
         runs[branch] = find_runs(early.acceleration, is_chaotic(early))

@@ -28,8 +28,8 @@ def numbers(*, converged: pd.DataFrame, fit: pd.DataFrame, euler: pd.DataFrame) 
         ].acceleration.nunique(),
         "aside": None,
     }
-    both = [edge[edge.is_critical].set_index("acceleration").z0 for edge in (euler, converged)]
-    change = 100.0 * (both[0] / both[1] - 1.0).dropna()
+    edges = [edge[edge.is_critical].set_index("acceleration").z0 for edge in (euler, converged)]
+    change = 100.0 * (edges[0] / edges[1] - 1.0).dropna()
     if change.empty:
         return values
     return values | {"aside": format_change(change.max(), change.min()), "most_at": change.idxmin()}

@@ -11,7 +11,7 @@ def numbers(
     *, changes: pd.DataFrame, continued: pd.DataFrame, meetings: pd.DataFrame, bifurcations: pd.DataFrame
 ) -> dict:
     right = changes[changes.status == "ok"]
-    own = continued[continued.parameter == "angle"]
+    conveyor = continued[continued.parameter == "angle"]
     first = continued[continued.kind == "fold"].begin.min()
     cusps = meetings[(meetings.begin == first) & (meetings.meeting == "cusp") & (meetings.parameter == "damping")]
     short = bifurcations[bifurcations.period <= LONGEST_PERIOD]
@@ -25,6 +25,6 @@ def numbers(
         "has_fold": not np.isnan(first),
         "uneven": (changes.status == UNEVEN).sum(),
         "missing": (~changes.status.isin(["ok", UNEVEN])).sum(),
-        "own": own.iloc[0].to_dict() if len(own) else {},
+        "own": conveyor.iloc[0].to_dict() if len(conveyor) else {},
         "cusps": list(cusps[cusps.status == "ok"].damping_group.sort_values()),
     }

@@ -73,8 +73,8 @@ def size_of_perturbation(
         return float(((table["lambda"] > 0.0) & (table.acceleration < acceleration)).sum())
 
     quantities = (
-        {"with_large": count(one), "with_small": count(other)}
-        for one, other in ((large_euler, euler), (large, converged))
+        {"with_large": count(large_table), "with_small": count(small_table)}
+        for large_table, small_table in ((large_euler, euler), (large, converged))
     )
     note = (
         f"The large difference is {large.attrs['epsilon']:g} m, the small one {converged.attrs['epsilon']:g} m. Both "
@@ -247,7 +247,8 @@ def fluctuation(*, euler: pd.DataFrame, converged: pd.DataFrame, states: pd.Data
     def largest_steps(table: pd.DataFrame) -> tuple[float, float]:
         """The largest change within chaos, and at its edges; NaN where a neighbour has no estimate."""
         rows = with_settled_motion(table, states)
-        steps, before = rows.dimension.diff().abs(), rows.chaotic.shift(fill_value=False)
+        steps = rows.dimension.diff().abs()
+        before = rows.chaotic.shift(fill_value=False)
         return steps[rows.chaotic & before].max(), steps[rows.chaotic != before].max()
 
     steps = by_method(largest_steps, euler, converged)

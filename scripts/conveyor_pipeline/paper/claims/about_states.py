@@ -51,8 +51,8 @@ def influences(*, changes: pd.DataFrame, frictions: pd.DataFrame) -> Finding:
 def two_states(table: pd.DataFrame) -> tuple[float, float]:
     """Ends of the interval of amplitudes (m/s²) at which the first and the second state coexist."""
     kinds = table.groupby("acceleration").state.agg(set)
-    both = pd.Series([x for x, states in kinds.items() if {"first", "second"} <= states], dtype=float)
-    return both.min(), both.max()
+    shared = pd.Series([x for x, states in kinds.items() if {"first", "second"} <= states], dtype=float)
+    return shared.min(), shared.max()
 
 
 def describe_tensions(table: pd.DataFrame, describe: Callable[[pd.DataFrame], str]) -> str:
@@ -131,7 +131,8 @@ def onset_of_chaos(*, euler: pd.DataFrame, converged: pd.DataFrame, certificates
     """Amplitudes (m/s²) from which velocities scatter, which the paper reads as chaos, and motions are chaotic."""
     scatter = by_method(scatter_onset, euler, converged)
     chaos = by_method(chaos_onset, euler, converged)
-    end, relative = two_states(converged)[1], relative_scatter(converged)
+    end = two_states(converged)[1]
+    relative = relative_scatter(converged)
     before = relative[(relative.index > end) & (relative.index < scatter["converged"])]
     also = (
         f", and at {(before > SCATTER).sum()} of {len(before)} amplitudes between there and {format_amplitude(end)}, "
@@ -168,7 +169,7 @@ def largest_critical_height(*, euler: pd.DataFrame, converged: pd.DataFrame, hei
     """Largest critical height (mm) at the amplitudes of Fig. 9, and at how many the first state occurs above it."""
     amplitudes = np.sort(heights.acceleration.unique())
     values = by_method(
-        lambda table: pd.Series([MM * critical_at(table, one) for one in amplitudes], amplitudes), euler, converged
+        lambda table: pd.Series([MM * critical_at(table, x) for x in amplitudes], amplitudes), euler, converged
     )
     returns = by_method(
         lambda table: table[table.acceleration.isin(amplitudes) & (table.state_above == "first")], euler, converged
@@ -227,11 +228,12 @@ def describe_frictions(
     if at_ends.empty:
         return f"No other friction was tried at {' and '.join(map(format_amplitude, ends))}"
     rows = {
-        friction: velocities(of, "first") + velocities(of, "second") for friction, of in at_ends.groupby("friction")
+        friction: velocities(group, "first") + velocities(group, "second")
+        for friction, group in at_ends.groupby("friction")
     }
     table = pd.DataFrame(rows, index=["lower", "upper", "second_lower", "second_upper"]).T
-    found = {"lower_end": table.lower, "upper_end": table.upper, "fall": table.second_lower - table.second_upper}
-    fits = {name: values.between(*velocities_of[name], inclusive="both") for name, values in found.items()}
+    numbers = {"lower_end": table.lower, "upper_end": table.upper, "fall": table.second_lower - table.second_upper}
+    fits = {name: values.between(*velocities_of[name], inclusive="both") for name, values in numbers.items()}
     names = {
         "lower_end": "the first state's velocity at the lower end",
         "upper_end": "at the upper end",
@@ -248,7 +250,7 @@ def describe_frictions(
         together = f"All come out at {every.index[every].min():g} to {every.index[every].max():g}"
     else:
         together = "No friction gives all of them"
-        misses = pd.DataFrame({name: relative_miss(values, *velocities_of[name]) for name, values in found.items()})
+        misses = pd.DataFrame({name: relative_miss(values, *velocities_of[name]) for name, values in numbers.items()})
         worst = misses.max(axis=1, skipna=False).dropna()
         if len(worst):
             together += (
@@ -304,16 +306,16 @@ def second_velocity(
     within = medians.loc[slice(*two_states(converged))]
     largest = (within.cummax() - within).max()
     low, high = velocities_of["fall"]
-    other = ", which would be accepted: the verdict depends on the reading" if low <= largest <= high else ""
-    least = (
+    remark = ", which would be accepted: the verdict depends on the reading" if low <= largest <= high else ""
+    minimum = (
         f"Its minimum, {within.min():.3f} cm/s, is at {within.idxmin():g} m/s²; the largest fall within the interval "
-        f"is {largest:.4g} cm/s{other}. "
+        f"is {largest:.4g} cm/s{remark}. "
         if len(within)
         else ""
     )
     note = (
         f"Between the ends, the velocity falls from {ends['converged'][0]:.2f} to {ends['converged'][1]:.2f} cm/s. "
-        f"{least}For each treatment of a tensile contact force, over its own interval: {described}. "
+        f"{minimum}For each treatment of a tensile contact force, over its own interval: {described}. "
         f"{describe_frictions(frictions, converged, velocities_of)}"
     )
     return Finding(*({"fall": lower - upper} for lower, upper in ends.values()), note)
@@ -367,11 +369,11 @@ def find_runs(x: ArrayLike, chosen: ArrayLike) -> list[tuple[float, float]]:
     return [(float(x[begin]), float(x[end - 1])) for begin, end in zip(edges[::2], edges[1::2], strict=True)]
 
 
-def format_runs(runs: list[tuple[float, float]], most: int = 4) -> str:
+def format_runs(runs: list[tuple[float, float]], limit: int = 4) -> str:
     """The longest runs of amplitudes (m/s²) in ascending order, and the number of all shorter ones, in words."""
-    longest = sorted(sorted(runs, key=lambda run: run[0] - run[1])[:most])
+    longest = sorted(sorted(runs, key=lambda run: run[0] - run[1])[:limit])
     text = ", ".join(f"{low:.2f}" if low == high else f"{low:.2f} to {high:.2f}" for low, high in longest) + " m/s²"
-    return text if len(runs) <= most else f"{text} and {len(runs) - most} shorter ones"
+    return text if len(runs) <= limit else f"{text} and {len(runs) - limit} shorter ones"
 
 
 def one_onset(*, converged: pd.DataFrame, on_plate: pd.DataFrame) -> Finding:
@@ -418,13 +420,13 @@ def impact_line(*, converged: pd.DataFrame) -> Finding:
     return Finding({}, {"slope": float(slope), "distance": float(distance)})
 
 
-def count_lines(table: pd.DataFrame, signal: str, least: float = LINE) -> tuple[int, int, float]:
+def count_lines(table: pd.DataFrame, signal: str, threshold: float = LINE) -> tuple[int, int, float]:
     """Numbers of lines above zero frequency in the first and the second state; mean over largest line in the second.
 
-    Lines smaller than `least` times the largest amplitude of their spectrum do not count.
+    Lines smaller than `threshold` times the largest amplitude of their spectrum do not count.
     """
     spectra = [rows for _, rows in table[table.signal == signal].groupby("acceleration")]
-    counts = [int((rows[rows.frequency > 0.0].amplitude > least * rows.amplitude.max()).sum()) for rows in spectra]
+    counts = [int((rows[rows.frequency > 0.0].amplitude > threshold * rows.amplitude.max()).sum()) for rows in spectra]
     second = spectra[-1]
     ratio = second[second.frequency == 0.0].amplitude.max() / second[second.frequency > 0.0].amplitude.max()
     return counts[0], counts[-1], float(ratio)
@@ -460,21 +462,21 @@ def overlap(
 ) -> Finding:
     """Share of the points without chaos at the higher amplitude that have the same state at the lower one."""
     shares = {}
-    kept = {"first": [], "second": []}
+    common = {"first": [], "second": []}
     maps = {"height": (height_low, height_high), "velocity": (velocity_low, velocity_high)}
     for place, (lower, higher) in maps.items():
         low, high = lower.state.to_numpy(), higher.state.to_numpy()
         regular = high != "chaos"
         shares[f"shared_{place}"] = float((low[regular] == high[regular]).mean()) if regular.any() else NONE
         shares[f"chaos_{place}"] = float((high == "chaos").mean())
-        for state, found in kept.items():
-            found.append(100.0 * float((low[high == state] == state).mean()) if (high == state).any() else NONE)
+        for state, percentages in common.items():
+            percentages.append(100.0 * float((low[high == state] == state).mean()) if (high == state).any() else NONE)
     chaotic = sum(int((table.state == "chaos").sum()) for table in (height_low, velocity_low))
     note = (
         "Of the points in one state at the higher amplitude, as many are in the same state at the lower one: first "
-        f"state {kept['first'][0]:.1f} % (Fig. 18) and {kept['first'][1]:.1f} % (Fig. 19), second state "
-        f"{kept['second'][0]:.1f} % and {kept['second'][1]:.1f} %. At the lower amplitude, {chaotic} points of both "
-        "maps are chaotic"
+        f"state {common['first'][0]:.1f} % (Fig. 18) and {common['first'][1]:.1f} % (Fig. 19), second state "
+        f"{common['second'][0]:.1f} % and {common['second'][1]:.1f} %. At the lower amplitude, {chaotic} points of "
+        "both maps are chaotic"
     )
     return Finding({}, shares, note)
 

@@ -46,8 +46,8 @@ def onset(x: ArrayLike, holds: ArrayLike) -> float:
     """
     x, holds = np.asarray(x, dtype=float), np.asarray(holds, dtype=bool)
     exceptions = np.append(np.cumsum(holds) - holds + np.cumsum(~holds[::-1])[::-1], holds.sum())
-    least = exceptions.min()
-    return NONE if exceptions[-1] == least else float(x[np.argmin(exceptions)])
+    fewest = exceptions.min()
+    return NONE if exceptions[-1] == fewest else float(x[np.argmin(exceptions)])
 
 
 def format_amplitude(value: float) -> str:

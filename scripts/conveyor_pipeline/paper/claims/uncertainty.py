@@ -8,9 +8,9 @@ import pandas as pd
 from conveyor_pipeline.paper.claims import verdicts
 
 
-def differences(now: list[float], tighter: list[float]) -> list[float | None]:
+def differences(current: list[float], tighter: list[float]) -> list[float | None]:
     """The absolute change of each number; None if one of the two is NaN."""
-    differences = [abs(one - other) for one, other in zip(now, tighter, strict=True)]
+    differences = [abs(before - after) for before, after in zip(current, tighter, strict=True)]
     return [None if math.isnan(value) else value for value in differences]
 
 

@@ -38,7 +38,8 @@ def plot() -> Figure:
     axes.annotate("$x$", (1.2, 0.0), (-1, 4), textcoords="offset points")
     axes.annotate("$z$", (0.0, 1.2), (3, -2), textcoords="offset points")
 
-    centre, reach = (8.6, plate - 0.175), 1.1
+    centre = (8.6, plate - 0.175)
+    reach = 1.1
     tip = centre[0] + reach * math.cos(THROW), centre[1] + reach * math.sin(THROW)
     arrow(axes, (2 * centre[0] - tip[0], 2 * centre[1] - tip[1]), tip, "<|-|>", style.EULER)
     axes.plot([centre[0], centre[0] + reach], [centre[1]] * 2, color="0.4", linewidth=0.6)

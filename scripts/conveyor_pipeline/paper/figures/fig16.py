@@ -11,7 +11,8 @@ def plot(*, converged: pd.DataFrame, euler: pd.DataFrame, acceleration: float, z
     figure = style.figure(style.PAGE, 100.0)
     (velocity, contact), (height, friction) = figure.subplots(2, 2, sharex=True)
     for role, table in {"euler": euler, "converged": converged}.items():
-        rows, look = table[(table.acceleration == acceleration) & (table.z0 == z0)], style.LOOKS[role]
+        rows = table[(table.acceleration == acceleration) & (table.z0 == z0)]
+        look = style.LOOKS[role]
         velocity.plot(rows.time, rows.vx, linewidth=0.7, **look)
         height.plot(rows.time, 1e3 * rows.z, linewidth=0.7, **look)
         contact.plot(rows.time, 1e3 * rows.contact_force, linewidth=0.7, **look)

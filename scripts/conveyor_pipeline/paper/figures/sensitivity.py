@@ -103,10 +103,10 @@ def draw_curves(axes: Axes, curves: pd.DataFrame, meetings: pd.DataFrame, parame
         rows = shown[shown.meeting == kind]
         if len(rows):
             axes.plot(rows[group], rows.amplitude_group, label=label, **look, **HOLLOW)
-    own = curves[curves.parameter == "angle"]
-    if len(own):
-        axes.axvline(own[group].iloc[0], color="black", linewidth=0.5, linestyle=":")
-        style.note(axes, "this conveyor", (own[group].iloc[0], 0.02), (2, 0), xycoords=("data", "axes fraction"))
+    conveyor = curves[curves.parameter == "angle"]
+    if len(conveyor):
+        axes.axvline(conveyor[group].iloc[0], color="black", linewidth=0.5, linestyle=":")
+        style.note(axes, "this conveyor", (conveyor[group].iloc[0], 0.02), (2, 0), xycoords=("data", "axes fraction"))
     axes.set_xscale("log")
     axes.set_yscale("log")
     low, high = 0.15, 5.0

@@ -61,8 +61,8 @@ def draw_dimensions(axes: Axes, rows: pd.DataFrame, column: str, label: str) -> 
     axes.set_ylim(0.4, 2.4)
     axes.set_xscale("log")
     axes.xaxis.set_minor_formatter(NullFormatter())  # labels of a short axis would overlap
-    least, most = rows[column].min(), rows[column].max()
-    axes.set_xlim(right=most * (most / least) ** 0.38)  # room for the names
+    smallest, largest = rows[column].min(), rows[column].max()
+    axes.set_xlim(right=largest * (largest / smallest) ** 0.38)  # room for the names
     axes.set_xlabel(label)
 
 

@@ -28,7 +28,8 @@ def make(critical: pd.DataFrame, settings: dict) -> dict[str, np.ndarray]:
     names = [column.name for column in TABLES["regressions"]]
     if len(np.unique(data[0])) <= len(Hyperbola._fields):
         return {name: [] for name in names}
-    bounds, valley = settings["bounds"], np.linspace(**settings["valley"])
+    bounds = settings["bounds"]
+    valley = np.linspace(**settings["valley"])
     fits = {
         "pymoo": fit_hyperbola_by_pymoo(*data, bounds, SEED, EVALUATIONS),
         "least_squares": fit_hyperbola(*data, bounds["B"]),

@@ -37,4 +37,4 @@ def make(settings: dict) -> dict[str, np.ndarray]:
     labels = {**axes, "state": states.state, "period": states.period}
     samples = [sample(run, times) for run in runs]
     repeated = {name: np.repeat(values, len(times)) for name, values in labels.items()}
-    return repeated | {name: np.concatenate([one[name] for one in samples]) for name in samples[0]}
+    return repeated | {name: np.concatenate([sampled[name] for sampled in samples]) for name in samples[0]}

@@ -97,7 +97,7 @@ def bifurcation_rows(branches: list[Branch]) -> list[dict]:
 
 
 def explore_bifurcations(
-    seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int, most: int
+    seeds: Iterable[Orbit], limits: tuple[float, float], max_period: int, most_orbits: int
 ) -> list[Branch]:
     """All branches in the amplitude that are connected with the seeds through period doublings, each once.
 
@@ -106,11 +106,11 @@ def explore_bifurcations(
     seeds : orbits to begin with, of conveyors that differ in the amplitude alone
     limits : lowest and highest â, m/s²
     max_period : longest period, excitation cycles
-    most : number of orbits, after which no further branch is followed
+    most_orbits : number of orbits, after which no further branch is followed
     """
     branches: list[Branch] = []
     waiting = list(seeds)
-    while waiting and sum(len(branch.orbits) for branch in branches) < most:
+    while waiting and sum(len(branch.orbits) for branch in branches) < most_orbits:
         orbit = waiting.pop(0)
         if any(on_branch(branch, orbit) for branch in branches):
             continue
@@ -120,7 +120,7 @@ def explore_bifurcations(
             waiting.append(branch.parent)
         if 2 * orbit.period <= max_period:
             doublings = [b for b in branch.bifurcations if b.kind == "period_doubling"]
-            waiting += [new for b in doublings if (new := find_doubled_orbit(b)) is not None]
+            waiting += [doubled for b in doublings if (doubled := find_doubled_orbit(b)) is not None]
     return branches
 
 
@@ -136,13 +136,13 @@ def explore_branches(orbits: list[Orbit], settings: dict) -> list[Branch]:
         return explore_bifurcations(orbits, *options, MOST_ORBITS)
     branches = []
     for period in sorted({orbit.period for orbit in orbits}):
-        new = [
+        unexplored = [
             orbit
             for orbit in orbits
             if orbit.period == period and not any(on_branch(branch, orbit) for branch in branches)
         ]
-        left = MOST_ORBITS - sum(len(branch.orbits) for branch in branches)
-        branches += explore_bifurcations(new, *options, left)
+        remaining = MOST_ORBITS - sum(len(branch.orbits) for branch in branches)
+        branches += explore_bifurcations(unexplored, *options, remaining)
     return branches
 
 
@@ -159,12 +159,12 @@ def first_doublings(branches: list[Branch], jumping: Orbit) -> list[Bifurcation]
         if the branches do not reach them
     """
     begin = jumping.acceleration
-    own = [branch for branch in branches if on_branch(branch, jumping)]
+    jumps = [branch for branch in branches if on_branch(branch, jumping)]
     first = next(
-        (b for branch in own for b in branch.bifurcations if is_doubling(b) and b.orbit.acceleration > begin), None
+        (b for branch in jumps for b in branch.bifurcations if is_doubling(b) and b.orbit.acceleration > begin), None
     )
     if first is None:
-        end = max((orbit.acceleration for branch in own for orbit in branch.orbits), default=begin)
+        end = max((orbit.acceleration for branch in jumps for orbit in branch.orbits), default=begin)
         raise JobError(
             f"the jumping orbit at {begin:g} m/s² (the last of orbits.seeds) does not double its period up to "
             f"{end:g} m/s²; raise the upper value of orbits.limits beyond its first period doubling"

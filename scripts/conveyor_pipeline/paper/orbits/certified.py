@@ -176,7 +176,8 @@ def orbits_at(parameters: np.ndarray, branch: int, line: Line, acceleration: flo
     If Newton's method finds no orbit between two points of the branch, their interpolation is used; its proof then
     fails with a reason.
     """
-    returns, orbits = ReturnMap(parameters, line.period), []
+    returns = ReturnMap(parameters, line.period)
+    orbits = []
     above = line.points[:, 2] > acceleration
     for i in np.flatnonzero(above[1:] != above[:-1]):
         begin, end = line.points[i : i + 2]
@@ -207,10 +208,10 @@ def doubled_lines(
     for row in cascade.itertuples():
         period = 2 * int(row.period)
         if longest[0] < period <= longest[1] and limits[0] < row.acceleration < limits[1]:
-            here = replace_parameters(parameters, acceleration=row.acceleration)
-            orbit = orbit_near(here, np.array([row.delta, row.v]), int(row.period))
-            new = find_doubled_orbit(Bifurcation("period_doubling", orbit, -1.0, "acceleration"))
-            branch = follow_branch(new, "acceleration", limits).orbits
+            at_doubling = replace_parameters(parameters, acceleration=row.acceleration)
+            orbit = orbit_near(at_doubling, np.array([row.delta, row.v]), int(row.period))
+            doubled = find_doubled_orbit(Bifurcation("period_doubling", orbit, -1.0, "acceleration"))
+            branch = follow_branch(doubled, "acceleration", limits).orbits
             lines.append(Line(period, np.array([[*orbit.state, orbit.acceleration] for orbit in branch])))
     return lines
 
@@ -256,7 +257,8 @@ def certificate_columns(units: Law, orbit: ProvedOrbit) -> dict[str, float]:
 
 def prove_float_orbit(settings: dict, unproved: FloatOrbit) -> dict:
     """The row of one orbit."""
-    stored, problem = unproved.orbit, shooting(settings, unproved.orbit.period)
+    stored = unproved.orbit
+    problem = shooting(settings, unproved.orbit.period)
     row = {
         "branch": unproved.branch,
         "acceleration": stored.acceleration,
@@ -287,7 +289,8 @@ def prove_float_orbit(settings: dict, unproved: FloatOrbit) -> dict:
 def prove_bifurcation(settings: dict, kind: str, number: int, row: dict) -> dict:
     """The row of one fold or period doubling, given by its kind, number and row in a table."""
     period, stored = row["period"], row["acceleration"]
-    problem, returns = shooting(settings, period), ReturnMap(grid.row_of(settings["model"]), period)
+    problem = shooting(settings, period)
+    returns = ReturnMap(grid.row_of(settings["model"]), period)
     strobes = float_orbit(0, returns, returns.scaled(stored, np.array([row["delta"], row["v"]]))).strobes
     about = {"kind": kind, "number": number, "period": period, "stored_acceleration": stored}
     try:
@@ -327,7 +330,8 @@ def prove_chaos(settings: dict, acceleration: float, saddles: list[FloatOrbit]) 
 
     Orbits are tried in the order of their multipliers, the largest one first.
     """
-    parameters, units = grid.row_of(settings["model"]), law(settings)
+    parameters = grid.row_of(settings["model"])
+    units = law(settings)
     system = System(units, units.gamma(exactly(acceleration)), Accuracy(CHAOS.order, CHAOS.tolerance))
     row = {
         "acceleration": acceleration,
@@ -394,7 +398,7 @@ def list_tasks(settings: dict, branches: pd.DataFrame, bifurcations: pd.DataFram
             tasks.append(Task("certified_bifurcations", (kind, number, row)))
     for acceleration in settings["chaos"]["acceleration"]:
         orbits = [orbits_at(parameters, number, line, acceleration) for number, line in singles.items()]
-        saddles = [one for one in itertools.chain(*orbits) if abs(one.orbit.multipliers[0]) > 1.0]
+        saddles = [candidate for candidate in itertools.chain(*orbits) if abs(candidate.orbit.multipliers[0]) > 1.0]
         tasks.append(Task("certified_chaos", (acceleration, saddles)))
     return tasks
 

@@ -48,16 +48,16 @@ def compare(run: Run, perturbed: Run, time_shift: float) -> list[dict]:
     time_shift : time by which the perturbation shifts the plate, s
     """
     difference = np.abs(perturbed.sample(TIMES)["vx"] - run.sample(TIMES)["vx"])
-    here, there = impact_times(run), impact_times(perturbed)
-    both = min(len(here), len(there))
+    times, perturbed_times = impact_times(run), impact_times(perturbed)
+    count = min(len(times), len(perturbed_times))
     # A larger phase is a later moment of the plate's motion, so that impacts come earlier. Impacts of a fixed-step
     # method have the times of its steps.
-    earlier = here[:both] - there[:both]
+    earlier = times[:count] - perturbed_times[:count]
     resolution = 0.5 * run.step if run.method == "euler" else 0.0
     rows = []
     for time, apart in zip(TIMES, difference, strict=True):
-        before = here[:both] <= time
-        late = before & (here[:both] > (1.0 - LAST) * time)
+        before = times[:count] <= time
+        late = before & (times[:count] > (1.0 - LAST) * time)
         rows.append(
             {
                 "time": time,

@@ -52,9 +52,9 @@ def finite_difference_exponent(
     with progress_bar(total=2 * len(parameters), label=progress) as shown:
         # Fixed steps of alike plates take less time, and a perturbed phase is another plate.
         tables = parameters, perturbed
-        here, there = (sample_runs(table, moments, progress=shown, **options)[output] for table in tables)
-    resolution = np.finfo(np.float64).eps * np.maximum(np.abs(here), np.abs(there)).max(axis=1, keepdims=True)
-    difference = np.maximum(np.abs(there - here), resolution)
+        signal, shifted = (sample_runs(table, moments, progress=shown, **options)[output] for table in tables)
+    resolution = np.finfo(np.float64).eps * np.maximum(np.abs(signal), np.abs(shifted)).max(axis=1, keepdims=True)
+    difference = np.maximum(np.abs(shifted - signal), resolution)
     return np.mean(np.log(difference / epsilon) / times, axis=1)
 
 
@@ -63,7 +63,8 @@ def box_dimension_of_paper(points: np.ndarray) -> Dimension:
 
     The error is twice the standard error of the slope, as if the counts scattered independently.
     """
-    points, scales = normalise(points), BOX_SIZES
+    points = normalise(points)
+    scales = BOX_SIZES
     boxes = ((points * (1.0 / size)).astype(np.int64) for size in scales)
     counts = np.array([len(np.unique(across << 32 | along)) for across, along in (box.T for box in boxes)], float)
     slope, _, error = fit_line(np.log(scales), np.log(counts))

@@ -101,15 +101,15 @@ def exponent_rows(model: dict, progress: str | None) -> list[dict]:
     varied = {panel: [USUAL | {name: value} for value in values] for panel, (name, values) in VARIED.items()}
     rows = []
     for name, case in CASES.items():
-        here = parameters_of(case, model)
-        truth = true_exponent(case, here, model)
+        table = parameters_of(case, model)
+        truth = true_exponent(case, table, model)
         for panel, runs in varied.items():
             for run in progress_bar(runs, label=progress and f"{progress}: {name}, {panel}", unit="runs"):
-                there = here.copy()
-                there[case["perturb"]] += run["epsilon"]
-                bound = saturated_estimate(here, case["output"], run["epsilon"], run["duration"])
+                shifted = table.copy()
+                shifted[case["perturb"]] += run["epsilon"]
+                bound = saturated_estimate(table, case["output"], run["epsilon"], run["duration"])
                 for method in ("event", "euler"):
-                    (value,) = finite_difference_exponent(here, there, **run, output=case["output"], method=method)
+                    (value,) = finite_difference_exponent(table, shifted, **run, output=case["output"], method=method)
                     estimated = run | {"value": float(value), "error": math.nan, "truth": truth, "bound": bound}
                     rows.append({**NONE, "panel": panel, "case": name, "estimator": method, **estimated})
     return rows
@@ -140,8 +140,8 @@ def dimension_rows(model: dict, progress: str | None) -> list[dict]:
     def add(panel, case, estimated, truth, **run):
         rows.extend(
             {**NONE, "panel": panel, "case": case, "estimator": name, "truth": truth, **run}
-            | {"value": one.value, "error": one.error}
-            for name, one in estimated.items()
+            | {"value": estimate.value, "error": estimate.error}
+            for name, estimate in estimated.items()
         )
 
     for count in progress_bar(POINTS, label=progress and f"{progress}: points", unit="sizes"):

@@ -25,10 +25,11 @@ def make(settings: dict, *, threads: int = 1, progress: str | None = None) -> di
     amplitudes = grid.axis_values("acceleration", settings["acceleration"])
     _, upwards = grid.product({"acceleration": list(amplitudes)}, settings["model"])
     count, tolerance = settings["strobes"], settings["tolerance"]
-    both = np.stack([upwards, upwards[::-1]])
+    directions = np.stack([upwards, upwards[::-1]])
     options = {"tolerance": tolerance, "threads": threads}
-    swept = bifurcation_diagram(both, transient=settings["transient"], strobes=count, **options)
-    points, status = np.stack([swept.delta, swept.v], axis=-1), swept.status
+    swept = bifurcation_diagram(directions, transient=settings["transient"], strobes=count, **options)
+    points = np.stack([swept.delta, swept.v], axis=-1)
+    status = swept.status
     points[1], status[1] = points[1, ::-1].copy(), status[1, ::-1].copy()
     rows = len(BRANCHES) * len(amplitudes)
     last = start_at(np.tile(upwards, 2), points[:, :, -1].reshape(rows, 2), tolerance=tolerance)

@@ -74,25 +74,26 @@ class MovedPoint(NamedTuple):
 
 def amplitude_group(point: BifurcationPoint, groups: NamedTuple) -> float:
     """Γ of a bifurcation for other groups D and K, which are reached in STEPS; NaN if it is not found again."""
-    before, here = point.unknown, point.unknown
-    begin, end = (np.log(np.maximum([one.damping, one.stiffness], 1e-300)) for one in (point.groups, groups))
+    previous, current = point.unknown, point.unknown
+    begin, end = (np.log(np.maximum([pair.damping, pair.stiffness], 1e-300)) for pair in (point.groups, groups))
     for step in range(1, STEPS + 1):
         damping, stiffness = np.exp(begin + step / STEPS * (end - begin))
         between = groups._replace(damping=float(damping), stiffness=float(stiffness)) if step < STEPS else groups
-        found = find_bifurcation(point.kind, point.period, 2.0 * here - before, between)
-        if found is None:
+        bifurcation = find_bifurcation(point.kind, point.period, 2.0 * current - previous, between)
+        if bifurcation is None:
             return np.nan
-        before, here = here, found.unknown
-    return float(here[-1])
+        previous, current = current, bifurcation.unknown
+    return float(current[-1])
 
 
 def moved_bifurcations(parameters: np.ndarray, selected: list) -> Iterator[MovedPoint]:
     """The bifurcations of the tables, as points that move."""
-    for one in selected:
-        point, label = one.point, {name: getattr(one, name) for name in ("kind", "period", "doubling", "rides")}
-        here = replace_parameters(parameters, acceleration=one.acceleration)
+    for bifurcation in selected:
+        point = bifurcation.point
+        label = {name: getattr(bifurcation, name) for name in ("kind", "period", "doubling", "rides")}
+        conveyor = replace_parameters(parameters, acceleration=bifurcation.acceleration)
         if point is None:
-            yield MovedPoint(**label, parameters=here, quantity="acceleration", status="not found again")
+            yield MovedPoint(**label, parameters=conveyor, quantity="acceleration", status="not found again")
             continue
         find = cache(lambda groups, point=point: amplitude_group(point, groups))
 
@@ -100,8 +101,8 @@ def moved_bifurcations(parameters: np.ndarray, selected: list) -> Iterator[Moved
             # The amplitude is an unknown: parameters with equal other groups share a solution.
             return amplitude_of(row, find(groups_of(row)._replace(amplitude=point.groups.amplitude)))
 
-        here = replace_parameters(parameters, acceleration=amplitude_of(parameters, point.groups.amplitude))
-        yield MovedPoint(**label, parameters=here, quantity="acceleration", solve=solve)
+        conveyor = replace_parameters(parameters, acceleration=amplitude_of(parameters, point.groups.amplitude))
+        yield MovedPoint(**label, parameters=conveyor, quantity="acceleration", solve=solve)
 
 
 def moved_accumulation(parameters: np.ndarray, doublings: list[MovedPoint]) -> MovedPoint | None:
@@ -114,8 +115,8 @@ def moved_accumulation(parameters: np.ndarray, doublings: list[MovedPoint]) -> M
     def solve(row):
         return accumulation_point(np.array([doubling.solve(row) for doubling in last]))[0]
 
-    here = replace_parameters(parameters, acceleration=limit)
-    return MovedPoint("accumulation", 0, here, "acceleration", solve)
+    conveyor = replace_parameters(parameters, acceleration=limit)
+    return MovedPoint("accumulation", 0, conveyor, "acceleration", solve)
 
 
 def state_of(parameters: np.ndarray) -> np.ndarray:
@@ -133,8 +134,8 @@ def moved_boundary(kind: str, parameters: np.ndarray, quantity: str) -> MovedPoi
     value = locate(parameters, REACH[quantity])
     if np.isnan(value):
         return MovedPoint(kind, 0, parameters, quantity, status="no change of state near it")
-    here = replace_parameters(parameters, **{quantity: value})
-    return MovedPoint(kind, 0, here, quantity, lambda row: locate(row, MOVE[quantity]))
+    conveyor = replace_parameters(parameters, **{quantity: value})
+    return MovedPoint(kind, 0, conveyor, quantity, lambda row: locate(row, MOVE[quantity]))
 
 
 def scale_of(parameters: np.ndarray, quantity: str) -> float:
@@ -148,24 +149,25 @@ def boundary_points(critical: pd.DataFrame, heights: int) -> Iterator[MovedPoint
     edges = critical[critical.is_critical].sort_values("acceleration", kind="stable")
     if edges.empty:
         return
-    rest = parameters.copy()
-    rest["z0"], rest["vz0"] = REST
+    part = parameters.copy()
+    part["z0"], part["vz0"] = REST
     # The amplitude whose critical height is closest to rest is the initial guess.
-    rest = replace_parameters(rest, acceleration=edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - rest["z0"])))])
-    yield moved_boundary("critical_amplitude", rest, "acceleration")
+    part = replace_parameters(part, acceleration=edges.acceleration.iloc[int(np.argmin(abs(edges.z0 - part["z0"])))])
+    yield moved_boundary("critical_amplitude", part, "acceleration")
     # Evenly spaced rows without the first and the last one.
     inner = np.linspace(0, len(edges) - 1, heights + 2)[1:-1].round().astype(int)
     for edge in edges.iloc[np.unique(inner)].itertuples():
-        here = replace_parameters(parameters, acceleration=edge.acceleration)
-        here["z0"] = edge.z0
-        yield moved_boundary("critical_height", here, "z0")
+        conveyor = replace_parameters(parameters, acceleration=edge.acceleration)
+        conveyor["z0"] = edge.z0
+        yield moved_boundary("critical_height", conveyor, "z0")
 
 
 def change_by_one_per_cent(point: MovedPoint, parameter: str) -> tuple[float, str]:
     """Half the difference of the quantity between 1 % more and 1 % less of a parameter, and the status."""
     if point.solve is None:
         return np.nan, point.status
-    here, ends = float(point.parameters[point.quantity]), []
+    value = float(point.parameters[point.quantity])
+    ends = []
     for sign in (1.0, -1.0):
         row = point.parameters.copy()
         row[parameter] *= 1.0 + sign * PART
@@ -173,7 +175,7 @@ def change_by_one_per_cent(point: MovedPoint, parameter: str) -> tuple[float, st
     change = 0.5 * (ends[0] - ends[1])
     if np.isnan(change):
         return np.nan, "not found again beside it"
-    uneven = abs(ends[0] + ends[1] - 2.0 * here)
+    uneven = abs(ends[0] + ends[1] - 2.0 * value)
     if uneven > LARGEST * max(abs(change), PART * scale_of(point.parameters, point.quantity)):
         return np.nan, UNEVEN
     return change, "ok"

@@ -61,12 +61,12 @@ STEEPEST = 0.49 * np.pi  # rad, largest angle of throw of a curve
 
 def place_columns(parameters: np.ndarray, point: BifurcationPoint, parameter: str, part: float) -> dict:
     """The columns with the parameters and groups of a point; `part` is the logarithm of the factor on `parameter`."""
-    here = parameters.copy()
-    here[parameter] *= np.exp(part)
+    conveyor = parameters.copy()
+    conveyor[parameter] *= np.exp(part)
     groups = point.groups
     return {
-        "value": float(here[parameter]),
-        "acceleration": amplitude_of(here, groups.amplitude),
+        "value": float(conveyor[parameter]),
+        "acceleration": amplitude_of(conveyor, groups.amplitude),
         "amplitude_group": groups.amplitude,
         "damping_group": groups.damping,
         "stiffness_group": groups.stiffness,
@@ -138,7 +138,7 @@ def make(
     parameters = grid.row_of(settings["model"])
     doublings = max(1, round(settings["effort"] * DOUBLINGS))
     chosen = select_bifurcations(parameters, folds_and_doublings, cascade, doublings)
-    chosen = [one for one in chosen if one.point is not None and (one.kind != GRAZING or one.rides)]
+    chosen = [choice for choice in chosen if choice.point is not None and (choice.kind != GRAZING or choice.rides)]
     tasks = [(bifurcation, parameter) for bifurcation in chosen for parameter in VARIED]
     tasks += [(bifurcation, "angle") for bifurcation in chosen]
     rows_of_curves = [None] * len(tasks)

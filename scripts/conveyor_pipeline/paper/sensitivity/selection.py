@@ -32,14 +32,14 @@ def select_bifurcations(
 ) -> list[Selected]:
     """Folds, doublings and grazings up to LONGEST_PERIOD, by amplitude, then the first doublings of the cascade."""
     first = cascade.sort_values("number", kind="stable").head(doublings).assign(kind="period_doubling")
-    others = bifurcations[bifurcations.period <= LONGEST_PERIOD].sort_values("acceleration", kind="stable")
+    candidates = bifurcations[bifurcations.period <= LONGEST_PERIOD].sort_values("acceleration", kind="stable")
     repeated = [
         ((first.period == row.period) & (abs(first.acceleration / row.acceleration - 1.0) < SAME)).any()
         and row.kind == "period_doubling"
-        for row in others.itertuples()
+        for row in candidates.itertuples()
     ]
-    others = others[~np.array(repeated, dtype=bool)].assign(number=0)
-    rows = pd.concat([others[others.groupby("kind").cumcount() < MOST], first])
+    candidates = candidates[~np.array(repeated, dtype=bool)].assign(number=0)
+    rows = pd.concat([candidates[candidates.groupby("kind").cumcount() < MOST], first])
     return [
         Selected(
             row["kind"],

@@ -21,13 +21,13 @@ SECTIONS = {"sensitivity": described(Sensitivity, "how bifurcations and critical
 
 
 def changes_settings(config: dict) -> dict:
-    own = {key: config["sensitivity"][key] for key in ("critical", "effort")}
-    return {**own, "model": model_of(config, "orbits")}
+    settings = {key: config["sensitivity"][key] for key in ("critical", "effort")}
+    return {**settings, "model": model_of(config, "orbits")}
 
 
 def curves_settings(config: dict) -> dict:
-    own = {key: config["sensitivity"][key] for key in ("effort", "factors")}
-    return {**own, "model": model_of(config, "orbits", normal=True)}
+    settings = {key: config["sensitivity"][key] for key in ("effort", "factors")}
+    return {**settings, "model": model_of(config, "orbits", normal=True)}
 
 
 TABLE_SETTINGS = {
