@@ -17,7 +17,8 @@ def precision(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 
 def unknown_names(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Names of tables and sweeps that the config does not have."""
-    tables, sweeps = known_tables(config, defaults), by_methods(config)["sweeps"]
+    tables = known_tables(config, defaults)
+    sweeps = by_methods(config)["sweeps"]
     used = [(f"scene_budget.reasons.{table}", table, tables) for table in config["scene_budget"]["reasons"]]
     used += [(f"map_check.maps[{place}]", name, sweeps) for place, name in enumerate(config["map_check"]["maps"])]
     yield from faults_of_names(used)

@@ -8,7 +8,7 @@ from conveyor_pipeline.study.accuracy import observables
 from conveyor_pipeline.study.accuracy.observables import Shown
 
 CURVE = Shown(lambda settings: None, (), ("value", "state"), "a curve")
-SIGNAL = Shown(lambda settings: None, ("time",), ("value",), "samples", each=True)
+SIGNAL = Shown(lambda settings: None, ("time",), ("value",), "samples", per_motion=True)
 AXES = {"acceleration": [20.0, 30.0, 40.0, 50.0, 60.0]}
 
 

@@ -135,7 +135,7 @@ def brute_force(rows: np.ndarray, *, threads: int = 1, progress: str | None = No
                 flights[k] = longest_flight(ends[k], settled[k].period)
 
     for_each_chunk(work, len(rows), threads=threads, chunk=1, progress=progress)
-    period = np.array([one.period for one in settled])
+    period = np.array([motion.period for motion in settled])
     states = np.where(flights >= LONG_FLIGHT, "second", "first").astype(object)
     exponent, error = np.full((2, len(rows)), np.nan)
     open_rows = np.flatnonzero(period == 0)
@@ -147,7 +147,7 @@ def brute_force(rows: np.ndarray, *, threads: int = 1, progress: str | None = No
     return {
         "state": states,
         "period": period,
-        "cycles": np.array([one.cycles for one in settled]),
+        "cycles": np.array([motion.cycles for motion in settled]),
         "exponent": exponent,
         "exponent_error": error,
     }
@@ -163,7 +163,8 @@ def make(
         axes = table.attrs["axes"]
         near = is_near_boundary(table.state.to_numpy().reshape([count_values(axis) for axis in axes.values()]))
         rows = draw_rows(near.ravel(), settings["points"], random)
-        label, near_boundary = table.state.to_numpy()[rows], near.ravel()[rows]
+        label = table.state.to_numpy()[rows]
+        near_boundary = near.ravel()[rows]
         chosen.append(pd.DataFrame({"map": name, "row": rows, "near_boundary": near_boundary, "label": label}))
         parameters += [grid.product(axes, table.attrs["model"], (row, row + 1))[1] for row in rows.tolist()]
     simulated = brute_force(np.concatenate(parameters), threads=threads, progress=progress)

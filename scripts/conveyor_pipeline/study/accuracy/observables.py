@@ -25,7 +25,7 @@ class Shown(NamedTuple):
     what: str  # the drawn columns in words
     vertical: bool = False  # whether the vertical motion is sufficient
     motion: tuple[str, ...] = ()  # columns besides the axes that identify a motion, if all its rows belong together
-    each: bool = False  # whether every motion has a panel and a range of values of its own
+    per_motion: bool = False  # whether every motion has a panel and a range of values of its own
 
     def observe(self, settings: dict) -> pd.DataFrame:
         """The table of an entry with these settings."""
@@ -53,9 +53,9 @@ def make_exponents(settings: dict) -> pd.DataFrame:
 SHOWN = {
     "sweeps": Shown(shards.columns, (), ("mean_velocity", "state"), "mean velocity, state"),
     "signals": Shown(
-        signals.make, ("time",), ("x", "vx", "z", "vz", "contact_force", "friction_force"), "samples", each=True
+        signals.make, ("time",), ("x", "vx", "z", "vz", "contact_force", "friction_force"), "samples", per_motion=True
     ),
-    "spectra": Shown(spectra.make, ("signal", "frequency"), ("amplitude",), "spectrum", each=True),
+    "spectra": Shown(spectra.make, ("signal", "frequency"), ("amplitude",), "spectrum", per_motion=True),
     "estimates": Shown(estimates.make, (), ("lambda",), "exponent"),
     "critical": Shown(make_critical_heights, (), ("z0",), "critical height", vertical=True),
     "impacts": Shown(
@@ -77,9 +77,9 @@ def thin_axes(axes: dict, points: int) -> dict:
     }
     remaining = points / len(values.get("tension", "1"))
     numbers = sorted((name for name in values if name != "tension"), key=lambda name: len(values[name]))
-    for left, name in zip(range(len(numbers), 0, -1), numbers, strict=True):
+    for axes_left, name in zip(range(len(numbers), 0, -1), numbers, strict=True):
         length = len(values[name])
-        count = min(length, max(2, math.ceil(remaining ** (1.0 / left))))
+        count = min(length, max(2, math.ceil(remaining ** (1.0 / axes_left))))
         values[name] = [values[name][k] for k in np.unique(np.linspace(0, length - 1, count).astype(int))]
         remaining = max(1.0, remaining / count)
     return values
@@ -98,8 +98,8 @@ def observe_shifted(shown: Shown, settings: dict, shifts: Sequence[float]) -> li
     if name not in axes:
         return [shown.observe(settings | {"model": model | {name: model[name] + unit * shift}}) for shift in shifts]
     originals = [{value + unit * shift: value for value in axes[name]} for shift in shifts]
-    table = shown.observe(settings | {"axes": axes | {name: [value for one in originals for value in one]}})
-    return [table[table[name].isin(one)].assign(**{name: table[name].map(one)}) for one in originals]
+    table = shown.observe(settings | {"axes": axes | {name: [value for original in originals for value in original]}})
+    return [table[table[name].isin(original)].assign(**{name: table[name].map(original)}) for original in originals]
 
 
 def visible_differences(shown: Shown, truth: pd.DataFrame, other: pd.DataFrame, axes: dict) -> pd.DataFrame:
@@ -110,20 +110,20 @@ def visible_differences(shown: Shown, truth: pd.DataFrame, other: pd.DataFrame, 
     count.
     """
     keys = [*axes, *shown.keys]
-    both = truth.set_index(keys)[list(shown.drawn)].join(
+    joined = truth.set_index(keys)[list(shown.drawn)].join(
         other.set_index(keys)[list(shown.drawn)].add_suffix(" of other"), how="left"
     )
     visible = {}
     for name in shown.drawn:
-        here, there = both[name], both[f"{name} of other"]
-        if not pd.api.types.is_numeric_dtype(here):
-            visible[name] = here.ne(there) & ~(here.isna() & there.isna())
+        expected, actual = joined[name], joined[f"{name} of other"]
+        if not pd.api.types.is_numeric_dtype(expected):
+            visible[name] = expected.ne(actual) & ~(expected.isna() & actual.isna())
         elif other[name].notna().any():
-            groups = here.groupby(level=list(axes)) if shown.each else here.groupby(lambda _: 0)
+            groups = expected.groupby(level=list(axes)) if shown.per_motion else expected.groupby(lambda _: 0)
             extent = groups.transform("max") - groups.transform("min")
-            visible[name] = ~((here.sub(there).abs() <= LINE * extent) | (here.isna() & there.isna()))
+            visible[name] = ~((expected.sub(actual).abs() <= LINE * extent) | (expected.isna() & actual.isna()))
         else:
-            visible[name] = pd.Series(False, index=both.index)
+            visible[name] = pd.Series(False, index=joined.index)
     return pd.DataFrame(visible)
 
 
@@ -134,7 +134,7 @@ def robust_values(shown: Shown, truth: pd.DataFrame, others: list[pd.DataFrame],
     of its motion different. The reason is that two chaotic motions may look alike at a moment by chance.
     """
     differ = sum(visible_differences(shown, truth, other, axes).astype(int) for other in others) > 0
-    if shown.each and "time" in shown.keys:
+    if shown.per_motion and "time" in shown.keys:
         differ = differ.groupby(level=list(axes)).cummax()
     if shown.motion:
         differ = differ.groupby(level=[*axes, *shown.motion]).transform("max")

@@ -127,7 +127,8 @@ def run_method(method: Method, conveyor: Conveyor, start: Start, duration: float
     """
     if method.treatment in scipy_integrators.TREATMENTS:
         name, treatment, tolerance, _ = method
-        parameters, limit = parameter_table(conveyor, start), most_evaluations(conveyor.frequency, duration)
+        parameters = parameter_table(conveyor, start)
+        limit = most_evaluations(conveyor.frequency, duration)
         times = sample_times(duration)
         run = scipy_integrators.run(parameters, duration, name, treatment, tolerance, limit, times)
         return Result(run.mean_velocity, np.array([run.vx, run.z, run.vz]), run.evaluations, 0, run.status, run)
@@ -172,7 +173,7 @@ def judge_runs(results: list[Result], errors: np.ndarray, truth: Result, setting
     conveyor, _ = grid.conveyor_and_start(settings["model"])
     plate = plate_motion(conveyor, np.array([settings["duration"], 0.5 / conveyor.frequency]))["z"]
     lowest = plate[0] - np.abs(plate).max()
-    outcomes = [THROUGH if one.status == "ok" and one.end[1] < lowest else one.status for one in results]
+    outcomes = [THROUGH if result.status == "ok" and result.end[1] < lowest else result.status for result in results]
     ended = [place for place, outcome in enumerate(outcomes) if outcome == "ok"]
     right, *states = find_states(settings, np.array([truth.end, *(results[place].end for place in ended)]))
     for place, state in zip(ended, states, strict=True):

@@ -118,13 +118,13 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
     alike = observables.observe_shifted(shown, full_settings, SHIFTS)
     alike.append(shown.observe(full_settings | {"tolerance": TIGHTER}))
     variants = [(FULL, full_settings), *variants_of(section, settings)]
-    runs = [partial(shown.observe, of) for _, of in variants]
+    runs = [partial(shown.observe, variant_settings) for _, variant_settings in variants]
     observed, times = run_in_turns(runs, repeats=REPEATS, seconds=SECONDS)
     truth = observed[0]
     robust = observables.robust_values(shown, truth, alike, settings["axes"])
     sticks = share_that_sticks(parameters[:: max(1, len(parameters) // 50)], settings["tolerance"])
 
-    def row(variant: str, of: dict, seconds: float, table: pd.DataFrame) -> dict:
+    def row(variant: str, variant_settings: dict, seconds: float, table: pd.DataFrame) -> dict:
         visible = observables.visible_differences(shown, truth, table, settings["axes"])
         shares = [visible[name][robust[name]].mean() for name in shown.drawn if robust[name].any()]
         return {
@@ -132,20 +132,20 @@ def rows_of_table(reference: str, settings: dict, budget: dict) -> list[dict]:
             "needs": needs,
             "shows": shown.what,
             "variant": variant,
-            "tolerance": np.nan if section == "impacts" else of["tolerance"],
+            "tolerance": np.nan if section == "impacts" else variant_settings["tolerance"],
             "points": len(parameters),
             "seconds": seconds / len(parameters),
             "sticks": sticks,
             "known": float(robust.to_numpy().mean()) if robust.size else np.nan,
             "changed": float(max(shares, default=0.0)),
             "visible": bool(max(shares, default=0.0) > PIXELS),
-            "chosen": of is settings,
-            "reason": budget["reasons"].get(reference) if of is settings else None,
+            "chosen": variant_settings is settings,
+            "reason": budget["reasons"].get(reference) if variant_settings is settings else None,
         }
 
     return [
-        row(variant, of, float(np.median(spent)), table)
-        for (variant, of), spent, table in zip(variants, times, observed, strict=True)
+        row(variant, variant_settings, float(np.median(spent)), table)
+        for (variant, variant_settings), spent, table in zip(variants, times, observed, strict=True)
     ]
 
 
@@ -174,7 +174,7 @@ def make(
     rows = [
         {"figure": figure, **row}
         for figure, references in drawn.items()
-        for row in ([one for reference in references for one in rows_by_table[reference]] if references else [NOTHING])
+        for row in ([row for reference in references for row in rows_by_table[reference]] if references else [NOTHING])
     ]
     times = [row for reference in entries for row in rows_by_table[reference]]
     return {

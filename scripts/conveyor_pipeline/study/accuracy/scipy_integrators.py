@@ -83,7 +83,8 @@ def follow(trajectory: Trajectory, begin: float, end: float, state: np.ndarray, 
     own steps.
     """
     limit = trajectory.limit - trajectory.evaluations
-    counting, derivatives = np.append(trajectory.parameters, 0.0), np.empty(4)
+    counting = np.append(trajectory.parameters, 0.0)
+    derivatives = np.empty(4)
 
     def right_side(t, state):
         if counting[-1] >= limit:
@@ -139,10 +140,10 @@ def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray,
             trajectory.mode = modes.next_mode(parameters, t, state, ended, trajectory.mode)
             if treatment == "modes":
                 modes.put_beside(parameters, t, state, ended, trajectory.mode, BESIDE)
-        here = trajectory.mode, state.tobytes()
-        if here in met:  # The run would not end.
+        situation = trajectory.mode, state.tobytes()
+        if situation in met:  # The run would not end.
             raise Failed(STUCK, 0)
-        met.add(here)
+        met.add(situation)
     return state
 
 

@@ -50,31 +50,32 @@ def at_default(scene: str, work: pd.DataFrame, times: pd.DataFrame) -> dict:
     """The solver at its default tolerance, compared with the paper's run in a scene; errors of the mean velocity."""
     timed = work.assign(milliseconds=1e3 * times.seconds)
     default = timed[(timed.method == "event") & (timed.tolerance == work.attrs["default"])]
-    own, without, paper = (*(default[default.treatment == name].iloc[0] for name in ("exact", OWN)), paper_run(timed))
+    solver, without = (default[default.treatment == name].iloc[0] for name in ("exact", OWN))
+    paper = paper_run(timed)
     return {
         "scene": scene,
         "acceleration": work.attrs["model"]["acceleration"],
         "z0": work.attrs["model"]["z0"],
         "duration": work.attrs["duration"],
-        "tolerance": own.tolerance,
-        "evaluations": own.evaluations,
-        "repeated_evaluations": own.repeated_evaluations,
-        "milliseconds": own.milliseconds,
+        "tolerance": solver.tolerance,
+        "evaluations": solver.evaluations,
+        "repeated_evaluations": solver.repeated_evaluations,
+        "milliseconds": solver.milliseconds,
         "paper_milliseconds": paper.milliseconds,
-        "error": own.velocity_error,
+        "error": solver.velocity_error,
         "paper_error": paper.velocity_error,
-        "speed": paper.milliseconds / own.milliseconds,
+        "speed": paper.milliseconds / solver.milliseconds,
         "speed_without": paper.milliseconds / without.milliseconds,
     }
 
 
-def compare(runs: pd.DataFrame, other: pd.Series | None, error: float) -> Factor | None:
+def compare(runs: pd.DataFrame, other_run: pd.Series | None, error: float) -> Factor | None:
     """The fastest run of the solver whose error is at most `error`, compared with another run; None without one."""
     solver = fastest(runs[runs.treatment == OWN], error)
-    if solver is None or other is None:
+    if solver is None or other_run is None:
         return None
-    evaluations = other.evaluations / solver.evaluations
-    return Factor(other.method, error, other.milliseconds, solver.milliseconds, evaluations)
+    evaluations = other_run.evaluations / solver.evaluations
+    return Factor(other_run.method, error, other_run.milliseconds, solver.milliseconds, evaluations)
 
 
 def factors(runs: pd.DataFrame, equal_error: float = EQUAL_ERROR) -> list[Factor]:

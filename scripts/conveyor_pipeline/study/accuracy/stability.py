@@ -195,14 +195,14 @@ def rest_experiment(panel: str, method: str, value: float) -> Experiment:
 
 def panel_values(panel: str, effort: float) -> np.ndarray:
     """The values of the varied quantity of a panel."""
-    spacing, least, largest, count = PANELS[panel]
-    return spacing(least, largest, max(2, round(effort * count)))
+    spacing, smallest, largest, count = PANELS[panel]
+    return spacing(smallest, largest, max(2, round(effort * count)))
 
 
 def region_rows(effort: float, progress: str | None) -> list[dict]:
     """Outcomes over the step and one other quantity."""
-    least, largest, count = STEPS
-    steps = np.geomspace(least, largest, max(2, round(effort * count)))
+    smallest, largest, count = STEPS
+    steps = np.geomspace(smallest, largest, max(2, round(effort * count)))
     lines = []
     for panel in PANELS:
         values = panel_values(panel, effort)
@@ -211,7 +211,7 @@ def region_rows(effort: float, progress: str | None) -> list[dict]:
                 experiments = conveyor_experiments(method, values)
             else:
                 experiments = [rest_experiment(panel, method, value) for value in values]
-            lines += [(panel, method, value, *one) for value, one in zip(values, experiments, strict=True)]
+            lines += [(panel, method, value, *pair) for value, pair in zip(values, experiments, strict=True)]
     rows = []
     for panel, method, value, outcome, theory in progress_bar(lines, label=progress, unit="lines"):
         rows += [row(panel, method, step, value, outcome(step), theory) for step in steps]

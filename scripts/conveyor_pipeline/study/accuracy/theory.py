@@ -104,7 +104,8 @@ def stiff_range(model: dict, stiffness: float, restitution: float) -> tuple[floa
         if the orbit, its fold or its period doubling is missing
     """
     low, high = closed_forms.rigid_range(restitution)
-    gravity, vertical = normal_gravity(model), math.sin(model["angle"])
+    gravity = normal_gravity(model)
+    vertical = math.sin(model["angle"])
     middle = 0.5 * (low + high)
     # On the rigid orbit, the part leaves with the velocity g T/2, and the plate has the velocity g T (1 - e)/(1 + e)/2.
     # Half a cycle later, the part is at the top of its flight, g T²/8 higher, and the plate as far below its middle
@@ -165,7 +166,8 @@ def impact_rows(settings: dict) -> Iterator[dict]:
     damped, _ = grid.conveyor_and_start(model)
     elastic, _ = grid.conveyor_and_start(model | {"damping": 0.0})
     for speed in SPEED:
-        simulated, depth = simulate_impact(elastic, speed), closed_forms.compression(elastic, speed)
+        simulated = simulate_impact(elastic, speed)
+        depth = closed_forms.compression(elastic, speed)
         case = f"undamped, {speed:g} m/s"
         duration = closed_forms.undamped_duration(elastic, speed)
         force = elastic.stiffness * depth**elastic.exponent
@@ -173,7 +175,8 @@ def impact_rows(settings: dict) -> Iterator[dict]:
         yield row("impact", "peak force of an impact", case, "N", force, simulated.peak, "Hertz 1882")
     for speed in SPEED:
         beta = damped.damping / damped.mass * closed_forms.compression(damped, speed) / speed
-        theory, simulated = closed_forms.reduced_restitution(damped.exponent, beta), simulate_impact(damped, speed)
+        theory = closed_forms.reduced_restitution(damped.exponent, beta)
+        simulated = simulate_impact(damped, speed)
         case, source = f"F = k δ^p + d δ̇, {speed:g} m/s", "reduced equation, SciPy"
         yield row("impact", "coefficient of restitution", case, "1", theory, simulated.restitution, source)
     speed = SPEED[0]
@@ -184,8 +187,10 @@ def impact_rows(settings: dict) -> Iterator[dict]:
         return (1.0 - simulate_impact(light, speed).restitution) / beta
 
     computed, error = extrapolate_to_zero(np.array([2.0 * LIGHT, LIGHT]), np.array([loss(2.0 * LIGHT), loss(LIGHT)]))
-    theory, source = closed_forms.light_loss(elastic.exponent), "work of the damper"
-    name, case = "loss of speed (1 - e)/β", "F = k δ^p + d δ̇, β → 0"
+    theory = closed_forms.light_loss(elastic.exponent)
+    source = "work of the damper"
+    name = "loss of speed (1 - e)/β"
+    case = "F = k δ^p + d δ̇, β → 0"
     yield row("impact", name, case, "1", theory, computed, source, error)
     for restitution in RESTITUTION:
         clipped = closed_forms.restitution_without_tension(restitution)

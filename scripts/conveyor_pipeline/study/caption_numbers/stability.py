@@ -6,5 +6,5 @@ from conveyor_pipeline.study.accuracy.limits import HEIGHT, PANELS, VELOCITY
 
 
 def numbers(*, stability: pd.DataFrame) -> dict:
-    own = stability[(stability.method == "event") & stability.panel.isin(PANELS)]
-    return {"height": HEIGHT, "accuracy": VELOCITY, "own_right": own.outcome == "right"}
+    solver_rows = stability[(stability.method == "event") & stability.panel.isin(PANELS)]
+    return {"height": HEIGHT, "accuracy": VELOCITY, "own_right": solver_rows.outcome == "right"}

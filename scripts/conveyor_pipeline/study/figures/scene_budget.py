@@ -46,7 +46,7 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     rows = rows.assign(place=rows.table.map(names.index), seen=rows.changed.clip(lower=NONE))
 
     figure = style.figure(style.PAGE, 22.0 + 8.0 * len(names))
-    cost, seen = figure.subplots(1, 2, sharey=True)
+    cost, changes = figure.subplots(1, 2, sharey=True)
     full = rows[rows.variant == "full model"]
     cost.plot(1e3 * full.seconds, full.place, **FULL)
     cheaper = (rows.variant != "full model") & (rows.tolerance.notna() | rows.variant.isin(VARIANTS))
@@ -54,21 +54,21 @@ def plot(*, budget: pd.DataFrame, times: pd.DataFrame) -> Figure:
     for row in rows[cheaper].sort_values("chosen", kind="stable").itertuples():
         marker, colour = marker_and_colour(row)
         look = {"color": colour, "markerfacecolor": "white" if row.visible else colour}
-        for axes, x in ((cost, 1e3 * row.seconds), (seen, row.seen)):
+        for axes, x in ((cost, 1e3 * row.seconds), (changes, row.seen)):
             axes.plot(x, row.place, marker, markersize=3.5, markeredgewidth=0.7, **look)
     chosen = rows[rows.chosen]
     cost.plot(1e3 * chosen.seconds, chosen.place, markeredgewidth=0.8, **RING)
-    seen.plot(chosen.seen, chosen.place, markeredgewidth=0.8, **RING)
-    seen.axvline(PIXELS, color="black", linewidth=0.6, linestyle=":")
+    changes.plot(chosen.seen, chosen.place, markeredgewidth=0.8, **RING)
+    changes.axvline(PIXELS, color="black", linewidth=0.6, linestyle=":")
     cost.set_yticks(range(len(names)), [f"{figures[name]}\n{name}" for name in names])
     cost.set_ylim(len(names) - 0.5, -0.5)
-    for axes in (cost, seen):
+    for axes in (cost, changes):
         axes.set_xscale("log")
         axes.xaxis.set_minor_formatter(NullFormatter())
         axes.grid(axis="y", linewidth=0.3)
     cost.set_xlabel("processor time per point in ms")
-    seen.set_xticks([NONE, 1e-3, 1e-2, 1e-1, 1.0], ["none", "0.001", "0.01", "0.1", "1"])
-    seen.set_xlabel("share of drawn values with a visible change")
+    changes.set_xticks([NONE, 1e-3, 1e-2, 1e-1, 1.0], ["none", "0.001", "0.01", "0.1", "1"])
+    changes.set_xlabel("share of drawn values with a visible change")
     handles = [
         Line2D([], [], linestyle="", marker="o", color=colour, label=f"tolerance {power_of_ten(tolerance)}")
         for tolerance, colour in TOLERANCES.items()

@@ -35,8 +35,8 @@ def largest_right_step(rows: pd.DataFrame) -> pd.Series:
 
     def limit(steps: pd.DataFrame) -> float:
         steps = steps.sort_values("x")
-        kept = steps.x[(steps.outcome == "right").cummin()]
-        return kept.max() if len(kept) else np.nan
+        right_steps = steps.x[(steps.outcome == "right").cummin()]
+        return right_steps.max() if len(right_steps) else np.nan
 
     return rows.groupby("y")[["x", "outcome"]].apply(limit)
 
@@ -52,10 +52,10 @@ def draw_panel(axes: Axes, rows: pd.DataFrame, panel: str, methods: list[str]) -
         axes.plot(limits.index, limits, color=style.METHODS[method][0], linewidth=width, path_effects=[edge])
     theory = euler.groupby("y").theory.first()
     axes.plot(theory.index, theory, **THEORY)
-    own = rows[rows.method == "event"].sort_values("y")
+    solver = rows[rows.method == "event"].sort_values("y")
     top = OWN_ROW * euler.x.max()
-    right = own.y.where(own.outcome == "right")
-    axes.plot(right, np.full(len(own), top), color=style.CONVERGED, linewidth=4.0, solid_capstyle="butt")
+    right = solver.y.where(solver.outcome == "right")
+    axes.plot(right, np.full(len(solver), top), color=style.CONVERGED, linewidth=4.0, solid_capstyle="butt")
     axes.axhline(PAPER_STEP, color="black", linewidth=0.8, linestyle=(0, (4, 2)))
     axes.set_yscale("log")
     axes.set_xscale("linear" if panel == "conveyor" else "log")
@@ -75,9 +75,9 @@ def legend_handles(methods: list[str]) -> list[Patch | Line2D]:
         width = 2.0 if method == "euler" else 1.0
         lines.append(Line2D([], [], color=colour, linewidth=width, label=f"limit of {name}"))
     theory = Line2D([], [], **THEORY, label="limit of explicit Euler, theory")
-    own = Line2D([], [], color=style.CONVERGED, linewidth=4.0, label="this solver: right state, no step limit")
+    solver = Line2D([], [], color=style.CONVERGED, linewidth=4.0, label="this solver: right state, no step limit")
     step = Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (4, 2)), label="paper's time step")
-    return [*areas, *lines, theory, own, step]
+    return [*areas, *lines, theory, solver, step]
 
 
 def plot(*, stability: pd.DataFrame) -> Figure:

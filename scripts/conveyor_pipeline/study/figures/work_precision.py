@@ -112,9 +112,9 @@ def draw_outcomes(axes: Axes, table: pd.DataFrame, kinds: list[tuple[str, str]])
     """Draw the outcomes of a scene over tolerance or time step, with a line for each method and treatment."""
     accuracy = table.tolerance.fillna(table.step)
     for place, (method, treatment) in enumerate(kinds):
-        here = (table.method == method) & (table.treatment == treatment)
+        of_kind = (table.method == method) & (table.treatment == treatment)
         for outcome, (marker, _) in OUTCOMES.items():
-            values = accuracy[here & (table.outcome == outcome)]
+            values = accuracy[of_kind & (table.outcome == outcome)]
             look = {"color": style.METHODS[method][0], "markerfacecolor": "none", "markersize": 3.5}
             axes.plot(values, np.full(len(values), place), marker, **look)
     axes.set_xscale("log")
