@@ -137,7 +137,7 @@ def hertz_stiffness(part: Any, lining: Any, radius: float) -> float:
     895
     """
     radius = check_number("radius", radius, 0.0, LARGEST_RADIUS, "m", above=True)
-    pairs = [constants_of(name, given) for name, given in (("part", part), ("lining", lining))]
+    pairs = [constants_of(name, chosen) for name, chosen in (("part", part), ("lining", lining))]
     compliance = sum((1.0 - poisson**2) / modulus for modulus, poisson in pairs)
     stiffness = 4.0 / 3.0 * math.sqrt(radius) / compliance
     low, high = RANGES["stiffness"]

@@ -78,8 +78,8 @@ def throw_number(
     >>> throw_number([40.0, 60.0], angle=np.radians(12.0), gravity=9.81).round(3).tolist()
     [0.848, 1.272]
     """
-    given = {"angle": angle, "gravity": gravity, "inclination": inclination}
-    acceleration, angle, gravity, inclination = check_arguments(acceleration, others, **given)
+    numbers = {"angle": angle, "gravity": gravity, "inclination": inclination}
+    acceleration, angle, gravity, inclination = check_arguments(acceleration, others, **numbers)
     share = plate.largest_fall(pack_harmonics(check_harmonics(harmonics)))
     gravity = normal_gravity({"gravity": gravity, "inclination": inclination})
     return acceleration * math.sin(angle) / gravity * share
@@ -127,9 +127,9 @@ def throw_velocity(
     >>> velocity.round(4).tolist()
     [0.0, 0.0887, nan]
     """
-    given = {"angle": angle, "gravity": gravity, "inclination": inclination}
-    given |= {"frequency": frequency, "phase_shift": phase_shift}
-    amplitude, angle, gravity, inclination, frequency, phase_shift = check_arguments(acceleration, others, **given)
+    numbers = {"angle": angle, "gravity": gravity, "inclination": inclination}
+    numbers |= {"frequency": frequency, "phase_shift": phase_shift}
+    amplitude, angle, gravity, inclination, frequency, phase_shift = check_arguments(acceleration, others, **numbers)
     throw = throw_number(amplitude, angle=angle, gravity=gravity, inclination=inclination)
     cycles = flight_cycles(throw)
     omega = 2.0 * math.pi * frequency

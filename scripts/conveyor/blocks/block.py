@@ -98,8 +98,8 @@ class BlockRun:
         # `simulate_block`.
         moments, place = np.unique(np.append(times.ravel(), self.duration), return_inverse=True)
         rows = pack(self.conveyor, self.start)[None]
-        given = rows, self.block, np.array([self.tilt]), moments[None]
-        (samples,), _ = follow(*given, tolerance=self.tolerance, since=(1.0 - LAST) * self.duration)
+        arguments = rows, self.block, np.array([self.tilt]), moments[None]
+        (samples,), _ = follow(*arguments, tolerance=self.tolerance, since=(1.0 - LAST) * self.duration)
         samples = samples[place.ravel()[:-1]]
         return {name: samples[:, k].reshape(times.shape) for k, name in enumerate(block_motion.SAMPLES)}
 
@@ -113,9 +113,11 @@ def follow(rows, block, tilts, times, *, tolerance, since=0.0, distance=math.inf
     workspace = np.empty((4, STATE)), np.empty((STAGES, STATE)), np.empty((ROWS, CORNERS))
     times = np.array(times, order="C")  # numba would compile `follow` for each other layout
     options = tolerance, times, since, samples, distance, results, workspace
-    given = np.ascontiguousarray(rows), plate.count_harmonics(rows), blocks, tilts
+    arguments = np.ascontiguousarray(rows), plate.count_harmonics(rows), blocks, tilts
     cycles = (times[:, -1] * rows[:, FREQUENCY]).sum()
-    call_interruptibly(lambda: block_motion.follow(*given, *options), lambda: times.fill(0.0), is_long=cycles > LONG)
+    call_interruptibly(
+        lambda: block_motion.follow(*arguments, *options), lambda: times.fill(0.0), is_long=cycles > LONG
+    )
     return samples, results
 
 
@@ -156,8 +158,8 @@ def simulate_block(
     tilt = check_number("tilt", tilt, -math.pi, math.pi, "rad")
     duration, tolerance = check_time("duration", duration), check_tolerance(tolerance)
     before = (1.0 - LAST) * duration
-    given = pack(conveyor, start)[None], block, np.array([tilt]), np.array([[before, duration]])
-    ((last, end),), (result,) = follow(*given, tolerance=tolerance, since=before)
+    arguments = pack(conveyor, start)[None], block, np.array([tilt]), np.array([[before, duration]])
+    ((last, end),), (result,) = follow(*arguments, tolerance=tolerance, since=before)
     code, largest_tilt, airtime, impact_speed, peak_force, *_ = result.tolist()
     known = 1.0 if code == OK else math.nan
     return BlockRun(
@@ -223,10 +225,10 @@ def block_transits(
         raise ValueError(f"begin = {begin.max()!s} s is after longest = {longest!r} s")
     travelled, results = np.empty(len(rows)), np.empty((len(rows), block_motion.RESULTS))
 
-    def work(first, behind):
-        part = slice(first, behind)
-        given = rows[part], block, tilts[part], np.full((behind - first, 1), longest)
-        samples, results[part] = follow(*given, tolerance=tolerance, since=begin[part], distance=length)
+    def work(begin_row, stop):
+        part = slice(begin_row, stop)
+        arguments = rows[part], block, tilts[part], np.full((stop - begin_row, 1), longest)
+        samples, results[part] = follow(*arguments, tolerance=tolerance, since=begin[part], distance=length)
         travelled[part] = samples[:, 0, X]
         return np.count_nonzero(results[part, block_motion.CODE] != OK)
 

@@ -60,15 +60,17 @@ def check_harmonics(harmonics: Sequence[Harmonic | Mapping[str, float]]) -> tupl
     if not isinstance(harmonics, (list, tuple)):
         raise ValueError(f"harmonics = {harmonics!r} must be a list of harmonics")
     checked = []
-    for k, given in enumerate(harmonics):
-        given = given._asdict() if isinstance(given, Harmonic) else given
-        if not isinstance(given, Mapping) or "order" not in given or not given.keys() <= HARMONIC.keys():
-            raise ValueError(f"harmonics[{k}] = {given!r} must have an order, and of {', '.join(HARMONIC)} only")
-        for name, value in given.items():
+    for k, harmonic in enumerate(harmonics):
+        harmonic = harmonic._asdict() if isinstance(harmonic, Harmonic) else harmonic
+        if not isinstance(harmonic, Mapping) or "order" not in harmonic or not harmonic.keys() <= HARMONIC.keys():
+            raise ValueError(f"harmonics[{k}] = {harmonic!r} must have an order, and of {', '.join(HARMONIC)} only")
+        for name, value in harmonic.items():
             _, unit, (low, high) = HARMONIC[name]
             check = check_count if name == "order" else partial(check_number, unit=unit)
             check(f"harmonics[{k}].{name}", value, low, high)
-        checked.append(Harmonic(int(given["order"]), *(float(given.get(name, 0.0)) for name in Harmonic._fields[1:])))
+        checked.append(
+            Harmonic(int(harmonic["order"]), *(float(harmonic.get(name, 0.0)) for name in Harmonic._fields[1:]))
+        )
     orders = [harmonic.order for harmonic in checked]
     if len(set(orders)) < len(orders) or len(orders) > MOST_HARMONICS:
         raise ValueError(f"harmonics have the orders {orders}: at most {MOST_HARMONICS}, each once")
