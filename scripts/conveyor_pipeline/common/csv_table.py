@@ -78,13 +78,26 @@ class Table(NamedTuple):
         wrong = np.flatnonzero(~np.isfinite(time))
         faults = [(int(self.lines[row]), number_fault("time", texts[row], DELETE)) for row in wrong]
         back = np.flatnonzero(np.diff(time) < 0.0) + 1
-        restarts = len(back) == 1 and time[back[0]] - time[back[0] - 1] < -RESTART * np.median(np.abs(np.diff(time)))
+        remedy = remedy_of_order(time)
+        if remedy:  # once, because all lines have the same cause
+            back = back[:1]
+        remedy = remedy or "sort the lines, or state excitation.rate (Hz) in place of the times"
         for row in back:
-            remedy = "sort the lines, or state excitation.rate (Hz) in place of the times"
-            if restarts:
-                remedy = "a second run, or an overflow of the clock, begins there; keep the lines before or behind it"
             faults.append((int(self.lines[row]), f"time = {texts[row]} is earlier than the line before; {remedy}"))
         return time, faults
+
+
+def remedy_of_order(time: Any) -> str:
+    """The remedy for times (s) of lines that are in reverse order, or of two runs; empty for other times."""
+    import numpy as np
+
+    steps = np.diff(time)
+    if len(steps) and np.mean(steps < 0.0) > 0.5:
+        return "the last lines come first; reverse their order"
+    back = steps[steps < 0.0]
+    if len(back) == 1 and back[0] < -RESTART * np.median(np.abs(steps)):
+        return "a second run, or an overflow of the clock, begins there; keep the lines before or behind it"
+    return ""
 
 
 def decode(content: bytes, path: str | Path = "") -> str:
@@ -249,8 +262,9 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
         ends_empty = widths[row] > len(names) and not any(split(rows[row][1], separator)[len(names) :])
         if not ends_empty and len(faults) < MOST_FAULTS:
             remedy = "leave no field out, and separate columns by semicolons if numbers have commas"
-            remedy = f"{DELETE}, the last one, if it is incomplete" if row == len(rows) - 1 else remedy
-            faults.append(f"{path}:{lines[row]}: has {widths[row]} values for {len(names)} columns; {remedy}")
+            remedy = f"{DELETE}, the last one, which may be incomplete" if row == len(rows) - 1 else remedy
+            values = f"{widths[row]} value{'s' if widths[row] != 1 else ''}"
+            faults.append(f"{path}:{lines[row]}: has {values} for {len(names)} columns; {remedy}")
     if faults:
         raise TableError(faults)
     columns = range(widths.max(initial=len(names)))

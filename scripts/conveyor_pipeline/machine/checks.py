@@ -119,11 +119,12 @@ def excitation(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     if "rate" in section and "time" in section.get("columns", {}):
         yield "excitation has both rate and columns.time; state one of them"
         return
-    model = config["model"]
+    model, stated_model = config["model"], stated.get("model") or {}
     # Also if it is the default.
-    states_frequency = "frequency" in (stated.get("model") or {})
-    is_given = states_frequency or model["frequency"] != defaults["model"]["frequency"]
-    settings = {**section, "inclination": model["inclination"], "frequency": model["frequency"] if is_given else None}
+    drive = {
+        name: model[name] for name in faults.DRIVE if name in stated_model or model[name] != defaults["model"][name]
+    }
+    settings = {**section, "inclination": model["inclination"], **drive}
     try:
         text = csv_table.read_text(path, "excitation.measured", reading.MOST_BYTES)
         table = csv_table.parse(text, path, reading.wanted(section), reading.HEADER_UNITS, reading.EXAMPLE)

@@ -214,7 +214,8 @@ def parameters(
         name: (
             values[name],
             math.hypot(noise.student * math.sqrt(errors[name]), change(name, known.noise, known.noise, rate_error))
-            + max(abs(change(name, known.lean, scale, 0.0)) for scale in scales) / NORMAL,
+            + max(abs(change(name, known.lean, scale, 0.0)) for scale in scales) / NORMAL
+            + abs(change(name, 0.0, [math.hypot(1.0, recording.across) - 1.0, 0.0], 0.0)) / NORMAL,
         )
         for name in PARAMETERS
     }

@@ -9,10 +9,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from conveyor_pipeline.machine.excitation.gravity import SURE, direction_fault, gravity_of, size_fault
+from conveyor_pipeline.machine.excitation.gravity import SURE, direction_fault, gravity_of, size_fault, wrap
 from conveyor_pipeline.machine.excitation.harmonics import (
     Fit,
     design_of,
+    drift_between_axes,
     duration_of,
     first_fit,
     fit,
@@ -22,7 +23,7 @@ from conveyor_pipeline.machine.excitation.harmonics import (
     sampling_rate,
     steadiness,
 )
-from conveyor_pipeline.machine.excitation.limits import OTHER_FREQUENCY
+from conveyor_pipeline.machine.excitation.limits import OTHER_DIRECTION, OTHER_FREQUENCY
 from conveyor_pipeline.machine.excitation.mixture import mixture_of
 from conveyor_pipeline.machine.excitation.modulation import (
     Jump,
@@ -56,6 +57,7 @@ LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
 MOST_DISPLACEMENT = 0.03  # m: slow shaking conveyors have up to 20 mm
 LEAST_FREQUENCY = 3.0  # Hz; with half of gravity, a plate would move by 14 mm
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
+DAY = 86400.0  # s
 DIFFERENT = 2.0  # difference of two frequencies in units of 1/T
 LEAST_CHANGE = 0.01  # of gravity, where another sensor begins
 CHANCE = 1e-4  # that noise alone looks like a jump of the phase or the amplitude
@@ -68,6 +70,8 @@ OUTLIER = 20.0  # times the 95 % quantile of a column, from which a sample is no
 UNSTEADY = 0.15  # relative standard deviation of the amplitude, above which its mean is no parameter of the drive
 NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does not vibrate
 MOST_WANDER = 0.3  # rad; the amplitude would be wrong by 4 %
+# rad, and standard errors: a phase between both axes that changes by more belongs to two clocks, or to another drive.
+MOST_DRIFT, CLEAR_DRIFT = 0.05, 8.0
 # A clipped signal stays at its extreme value far longer than near it.
 NEAR, SPIKE, PLATEAU, FLAT, LEAST_FLAT = 0.002, 4.0, 3.0, 0.01, 20
 CHANCE_OF_FLAT = 0.01  # that the flattest wave looks cut off
@@ -78,6 +82,7 @@ COARSE = 20.0  # steps of the readings; with more noise, chance puts few samples
 # Readings that a slower channel holds: least share in each piece, and its product with the median of the other changes
 # in steps, which is about 0.3 for a wave and for noise, at any size of the steps.
 HELD, MOVING = 0.1, 2.0
+DRIVE = ("frequency", "angle", "phase_shift")  # Hz and rad: what a recording shows of the model
 CYCLES = {2: "second", 3: "third", 4: "fourth"}
 WEAK = 2.0  # times as strong as the fundamental: a harmonic that may be the drive itself
 # Strips at the extreme, in halves of the span of the values; ratio of the first to the second; and how many times the
@@ -154,7 +159,7 @@ class Signal(NamedTuple):
     fitted: Fit
     extra_line: tuple[float, float] | None  # frequency (Hz) and amplitude (m/s²) of a line that is no harmonic
     modulation: Modulation
-    settings: Mapping[str, Any]  # of the section `excitation`, with `inclination` and `frequency`, if it is stated
+    settings: Mapping[str, Any]  # of the section `excitation`, with `inclination`, and what the model states of DRIVE
 
     @property
     def time(self) -> np.ndarray:
@@ -342,12 +347,12 @@ def sampling_faults(signal: Signal) -> Iterator[Fault]:
         right = signal.fitted.frequency * (every - 1.0) / every
         yield (
             f"has a phase that swings by {line[1]:.2g} rad over {1.0 / line[0]:.4g} samples, as no vibration does: the "
-            f"times are not those of the samples{or_harmonic(signal)}. If every {every:.3g}th sample is lost, the "
+            f"times are not those of the samples{or_harmonic(signal)}. If one of {every:.3g} samples is lost, the "
             f"drive vibrates at {right:.5g} Hz; record without losses, or with the time of each sample"
         )
     elif every := loss_in_step(signal.time, signal.recording.acceleration[:, : len(signal.time)], signal.fitted):
         yield (
-            f"has harmonics that vanish if every {every}th sample is lost, and then the drive vibrates at "
+            f"has harmonics that vanish if one of {every} samples is lost, and then the drive vibrates at "
             f"{signal.fitted.frequency * (every - 1.0) / every:.5g} Hz; record without losses, or with the time of "
             "each sample"
         )
@@ -479,6 +484,18 @@ def phase_faults(signal: Signal) -> Iterator[Fault]:
         )
 
 
+def clock_faults(signal: Signal) -> Iterator[Fault]:
+    """A phase between both axes that drifts, as of two loggers."""
+    change, error = drift_between_axes(signal.time, signal.fitted)
+    if abs(change) > max(MOST_DRIFT, CLEAR_DRIFT * error):
+        relative = abs(change) / (2.0 * math.pi * signal.fitted.frequency * np.ptp(signal.time))
+        yield (
+            f"has a phase between both axes that drifts by {abs(change):.2g} rad from begin to end, as where two "
+            f"loggers measure them, whose clocks differ by {1e6 * relative:.2g} ppm, or where the drive changes; "
+            "record both axes with one logger, and keep a piece in which the drive runs steadily"
+        )
+
+
 def steadiness_faults(signal: Signal) -> Iterator[Fault]:
     """An amplitude that changes, or a second vibration."""
     frequency = signal.fitted.frequency
@@ -514,13 +531,19 @@ def frequency_faults(signal: Signal) -> Iterator[Fault]:
             f"m: {remedy}sample faster if the drive is faster (aliasing)"
         )
     elif frequency > MOST_FREQUENCY:
-        yield (
-            f"vibrates at {frequency:.5g} Hz, as no conveyor does; state the unit of its times as excitation.time_unit "
-            "(s, ms, µs, ns)"
-        )
+        remedy = "state the unit of its times as excitation.time_unit (s, ms, µs, ns)"
+        if LEAST_FREQUENCY < frequency / DAY < MOST_FREQUENCY:
+            remedy = f"its times look like days, as spreadsheets have them; multiply them by {DAY:.0f}"
+        yield f"vibrates at {frequency:.5g} Hz, as no conveyor does; {remedy}"
     elif stated and abs(frequency / stated - 1.0) > OTHER_FREQUENCY:
         factor = frequency / stated
-        lost = f", if every {factor / (factor - 1.0):.3g}th sample is lost," if 1.0 < factor < 2.0 else ""
+        if abs(factor - 2.0) < 2.0 * OTHER_FREQUENCY:
+            yield (
+                f"vibrates at {frequency:.5g} Hz, twice model.frequency = {stated:g}, as where a magnet pulls twice in "
+                f"each cycle of the mains; set model.frequency: {frequency:.5g}, or correct its times"
+            )
+            return
+        lost = f", if one of {factor / (factor - 1.0):.3g} samples is lost," if 1.0 < factor < 2.0 else ""
         yield (
             f"vibrates at {frequency:.5g} Hz, but model.frequency is {stated:g}; its times are wrong by a factor of "
             f"{factor:.5g}{lost} and its rate would be {signal.rate / factor:.5g} Hz, or set model.frequency: "
@@ -569,6 +592,22 @@ def share_faults(signal: Signal) -> Iterator[Fault]:
         )
 
 
+def stated_faults(signal: Signal) -> Iterator[Fault]:
+    """An angle of throw or a phase shift other than the stated one."""
+    along, normal = signal.fitted.amplitudes[:, 0]
+    measured = {
+        "angle": math.atan2(abs(normal), abs(along)),
+        "phase_shift": float(wrap(np.angle(along) - np.angle(normal))),
+    }
+    for name, value in measured.items():
+        stated = signal.settings.get(name)
+        if stated is not None and abs(wrap(value - stated)) > OTHER_DIRECTION:
+            yield (
+                f"has the {name.replace('_', ' ')} {value:.4g} rad, but model.{name} is {stated:.4g} rad; check "
+                f"excitation.mount and the signs of the axes, or leave model.{name} out"
+            )
+
+
 # Where a group finds faults, the next ones would only find their consequences.
 OF_TIMES = ((time_faults,), (gap_faults,))
 OF_SIGNAL = (
@@ -579,11 +618,13 @@ OF_SIGNAL = (
     (subharmonic_faults,),
     (frequency_faults, sampling_faults),
     (phase_faults,),
+    (clock_faults,),
     (saturation_faults,),
     (mixture_faults,),
     (unit_faults, steadiness_faults),
     (ambiguity_faults,),
     (share_faults,),
+    (stated_faults,),
 )
 
 
@@ -610,7 +651,7 @@ def later_faults(
             lines = f"in the lines {piece.lines[0]:,} to {piece.lines[-1]:,}, it"
             return [(line, fault if line else f"{lines} {fault}") for line, fault in faults]
     whole = Signal(recording, fitted, extra_line, modulation_of(recording.time, fitted), settings)
-    return first_faults(whole, ((phase_faults,), (steadiness_faults,)))
+    return first_faults(whole, ((phase_faults,), (clock_faults,), (steadiness_faults,)))
 
 
 def first_faults(subject: Any, groups: tuple) -> list[tuple[int | None, str]]:
@@ -624,7 +665,7 @@ def first_faults(subject: Any, groups: tuple) -> list[tuple[int | None, str]]:
 def checked(table: Any, settings: Mapping[str, Any]) -> Recording:
     """The recording in a table of common.csv_table, whose error names all faults with file and line.
 
-    settings : as in `parse`, and optionally `inclination` (rad) of the track and the stated `frequency` (Hz)
+    settings : as in `parse`, and optionally `inclination` (rad) of the track and the parameters DRIVE that are stated
     """
     raw = parse(table, settings)
     # A reading that is repeated would look like a value at which a sensor stays.

@@ -110,6 +110,11 @@ def fitting_columns(recording: Recording, means: np.ndarray, mount: float, incli
     return entries
 
 
+def format_angle(angle: float) -> str:
+    """An angle (rad) in four decimals, which no mount is set more exactly than; "0" for less."""
+    return f"{round(angle, 4) + 0.0:.4g}"
+
+
 def direction_fault(recording: Recording, gravity: Gravity, settings: Mapping[str, Any]) -> str | None:
     """What is wrong with mount, inclination or signs of axes if gravity has another direction."""
     if not gravity.present or abs(gravity.lean) < MOST_LEAN + SURE * gravity.noise:
@@ -135,10 +140,11 @@ def direction_fault(recording: Recording, gravity: Gravity, settings: Mapping[st
         return f"{shown}: an axis points the other way; set {entries[0]}"
     if recording.columns == AXES:
         names = columns_entry(rename(recording.names))
-        remedy = f"name the columns by {names} with excitation.mount: {fits:.4g}"
+        remedy = f"name the columns by {names} with excitation.mount: {format_angle(fits)}"
     else:
-        remedy = f"set excitation.mount: {fits:.4g}"
+        remedy = f"set excitation.mount: {format_angle(fits)}"
     if abs(inclination + gravity.lean) < 0.5:
-        remedy += f" if the sensor stands so, or model.inclination: {inclination + gravity.lean:.4g} if the track does"
+        track = format_angle(inclination + gravity.lean)
+        remedy += f" if the sensor stands so, or model.inclination: {track} if the track does"
     mirrored = f"; or, if an axis has the other sign or the other name, {' or '.join(entries)}" if entries else ""
     return f"{shown}; {remedy}{mirrored}"

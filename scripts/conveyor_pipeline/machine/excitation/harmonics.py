@@ -21,6 +21,7 @@ GAP = 6.0  # mean intervals between two samples from which on they have a gap be
 LEAST_CYCLES = 1.5  # of the lowest frequency that is a vibration and no drift
 PIECE = 4  # cycles, at least, of a piece of the recording whose amplitude is measured
 MOST_PIECES = 50
+LEAST_PIECES = 8  # for a straight line through them with a standard error
 CHECKED_ORDERS = 8  # of a first fit
 PHASES = 64  # in a cycle that count as different; a drive that is nearly locked to the sampling drifts by less
 # A further line counts from this share of the fundamental of its axis, if its power is this multiple of the noise's
@@ -160,27 +161,55 @@ def fit(time: np.ndarray, signals: np.ndarray, guess: float, orders: int) -> Fit
     return Fit(frequency, middle, amplitudes, values[0], remainder)
 
 
-def steadiness(time: np.ndarray, fitted: Fit) -> dict[str, float]:
-    """How amplitude and phase of the fundamental change from piece to piece of the recording."""
+class Pieces(NamedTuple):
+    """Pieces of a recording, each with its own fundamental."""
+
+    middles: np.ndarray  # s, from the middle of the recording, shape (n,)
+    sizes: np.ndarray  # samples, shape (n,)
+    errors: np.ndarray  # complex relative errors of the fundamental: amplitude, and phase in rad, shape (2, n)
+
+
+def pieces_of(time: np.ndarray, fitted: Fit) -> Pieces:
+    """The fundamental of each axis in pieces of at least PIECE cycles, relative to that of the whole recording."""
     cycles = fitted.frequency * duration_of(time)
-    pieces = max(2, min(MOST_PIECES, math.floor(cycles / PIECE)))
+    count = max(2, min(MOST_PIECES, math.floor(cycles / PIECE)))
     centred = time - fitted.middle
-    begins = np.linspace(0, len(time), pieces, endpoint=False).astype(np.int64)  # a gap leaves no piece empty
+    begins = np.linspace(0, len(time), count, endpoint=False).astype(np.int64)  # a gap leaves no piece empty
     sizes = np.diff([*begins, len(time)])
     waves = np.exp(-2j * math.pi * fitted.frequency * centred)
-    weights = np.abs(fitted.amplitudes[:, 0]) ** 2
     errors = 2.0 * np.add.reduceat(fitted.residual * waves, begins, axis=1) / sizes / fitted.amplitudes[:, :1]
+    return Pieces(np.add.reduceat(centred, begins) / sizes, sizes, errors)
+
+
+def steadiness(time: np.ndarray, fitted: Fit) -> dict[str, float]:
+    """How amplitude and phase of the fundamental change from piece to piece of the recording."""
+    middles, sizes, errors = pieces_of(time, fitted)
+    weights = np.abs(fitted.amplitudes[:, 0]) ** 2
     whole = weights @ errors / weights.sum()
     amplitude = whole.real
     noise = (fitted.residual**2).mean(axis=1) * 2.0 / sizes.mean()
-    middles = np.add.reduceat(centred, begins) / sizes
+    duration = time[-1] - time[0]
     return {
-        "pieces": pieces,
+        "pieces": len(sizes),
         "deviation": float(amplitude.std(ddof=1)),
         "wander": float(np.angle(1.0 + whole).std(ddof=1)),
         "deviation_of_noise": math.sqrt(float(weights @ noise)) / float(weights.sum()),
-        "drift": float(np.polyfit(middles, amplitude, 1)[0] * (centred[-1] - centred[0])),
+        "drift": float(np.polyfit(middles, amplitude, 1)[0] * duration),
     }
+
+
+def drift_between_axes(time: np.ndarray, fitted: Fit) -> tuple[float, float]:
+    """The change (rad) of the phase between both axes from begin to end, by a straight line, and its standard error.
+
+    Infinite without enough pieces. A common wander of both phases does not count.
+    """
+    middles, sizes, errors = pieces_of(time, fitted)
+    if len(sizes) < LEAST_PIECES:
+        return 0.0, math.inf
+    along, normal = np.angle(1.0 + errors)
+    (slope, _), covariance = np.polyfit(middles, along - normal, 1, cov=True)
+    duration = time[-1] - time[0]
+    return float(slope * duration), float(math.sqrt(covariance[0, 0]) * duration)
 
 
 def further_line(time: np.ndarray, fitted: Fit) -> tuple[float, float] | None:

@@ -9,3 +9,4 @@ MATTERS = 0.05  # relative change of the slowest 5 % or of the median
 # at least the other.
 STATEMENT = {"share": 0.05, "chaos": 0.05, "riding": 0.1}
 OTHER_FREQUENCY = 0.01  # relative difference from a stated frequency: more than clocks differ, and than a motor slips
+OTHER_DIRECTION = 0.1  # rad, difference from a stated angle of throw or phase shift: more than a mount is wrong by

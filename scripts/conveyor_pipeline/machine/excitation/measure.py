@@ -82,6 +82,7 @@ TABLES = {
         fields.flag("gravity_found", "whether the means are gravity; a sensor may remove it"),
         fields.number("gravity", "1", "size of the means of both axes, over the standard gravity"),
         fields.number("lean", "rad", "direction of the means, forwards from where mount and inclination put gravity"),
+        fields.number("across", "1", "vibration in the sensor's third axis, over that along the track; 0 if not known"),
         *by_axis("_noise", "m/s²", "root mean square of what no harmonic explains,"),
         *by_axis("_distortion", "1", "root sum of squares of the shares above the noise,"),
         fields.number(
@@ -203,6 +204,7 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
         "gravity_found": gravity.present,
         "gravity": gravity.size,
         "lean": gravity.lean,
+        "across": recording.across,
         "sampling_rate": rate,
         "cycles": fitted.frequency * duration_of(recording.time),
         "other_frequency": extra_line[0] if extra_line else math.nan,

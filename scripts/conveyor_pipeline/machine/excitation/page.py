@@ -4,6 +4,7 @@ import math
 
 import pandas as pd
 
+from conveyor.parameters import MOST_HARMONICS
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.excitation import comparison as compared
 from conveyor_pipeline.machine.excitation.effects import MEASURES
@@ -56,10 +57,13 @@ def make(
             "backwards": abs(drive["phase_shift"]["value"]) > 0.5 * math.pi,
             "harmonics": rows[is_listed].to_dict("records"),
             "above": bool(harmonics.above_noise.any()),
+            "dropped": max(int(harmonics.above_noise.sum()) - MOST_HARMONICS, 0),
+            "most_harmonics": MOST_HARMONICS,
             "hidden": largest_hidden,
             "statement": STATEMENT["share"],
             "orders": int(harmonics.order.max()) if len(harmonics) else 1,
             "quality": fit,
+            "turned": math.atan(fit["across"]),
             "other": not math.isnan(fit["other_frequency"]),
             "chance": CHANCE,
             "other_frequency": OTHER_FREQUENCY,

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from conveyor_pipeline.common.csv_table import DELETE, MOST_FAULTS
+from conveyor_pipeline.common.csv_table import DELETE, MOST_FAULTS, remedy_of_order
 
 STANDARD_GRAVITY = 9.80665  # m/s², the unit g
 UNITS = {"m/s²": 1.0, "g": STANDARD_GRAVITY, "mm/s²": 1e-3, "mg": 1e-3 * STANDARD_GRAVITY}
@@ -32,7 +32,7 @@ AXES, SENSOR = tuple(DIRECTIONS), ("x", "z")  # the two pairs of columns
 MOST_SAMPLES = 2_000_000  # 80 s at 25 kHz; the fit of more takes minutes and gigabytes, and gains nothing
 MOST_BYTES = 50 * MOST_SAMPLES
 LEAST_SAMPLES = 64  # eight cycles of eight samples
-ANOTHER_RATE = 1.01  # a stated rate contradicts the times of a file by more, which no clock is wrong by
+ANOTHER_RATE = 1.001  # a stated rate contradicts the times of a file by more; the frequency would be as wrong
 EXAMPLE = 'time,along,normal, or excitation.columns names them by number, such as {time: "1", x: "2", z: "3"}'
 # Names of columns that need no `columns` in the config: phyphox writes `Acceleration x (m/s^2)`, others accel_x or ax.
 KNOWN = {"time": re.compile(r"(time|timestamp|t|(time|timestamp|t)[ _](s|ms|us|µs|ns))", re.IGNORECASE)}
@@ -60,6 +60,7 @@ class Recording(NamedTuple):
     sampling: str = "stamped"  # how the times follow from the file; see sample_times.py
     repeated: int = 0  # lines that repeat the readings of the line before, and that are left out
     rate_error: float = 0.0  # relative standard error of the sampling rate
+    across: float = 0.0  # vibration in the unused axis over that along the track, of which the sensor may be turned
     resolution: float = 0.0  # s, to which uneven times are rounded
     others: tuple["Recording", ...] = ()  # the same with other times that its signal fits about as well
 
@@ -191,6 +192,10 @@ def rate_fault(table: Any, rate: float) -> str | None:
     if place is None or len(table.lines) < 2:
         return None
     seconds, wrong = table.seconds(place, 1.0)
+    name = quote(table.names[place])
+    if np.isfinite(seconds).all() and remedy_of_order(seconds):
+        line, fault = wrong[0]
+        return f"has the line {line} with {fault}, because excitation.rate counts them in the order of the file"
     if wrong or seconds[-1] <= seconds[0]:
         return None
     stated = TIME_UNITS.get(plain(table.units[place]))
@@ -201,9 +206,8 @@ def rate_fault(table: Any, rate: float) -> str | None:
     coarse = steps.max() / (seconds[-1] - seconds[0])  # relative error of the duration by rounding
     if (1.0 - coarse) / ANOTHER_RATE < nearest / rate < ANOTHER_RATE * (1.0 + coarse):
         return None
-    name = quote(table.names[place])
     return (
-        f"has the column {name} with {nearest:.4g} samples per second, but excitation.rate is {rate:g}; correct the "
+        f"has the column {name} with {nearest:.6g} samples per second, but excitation.rate is {rate:g}; correct the "
         f"rate, or leave it out, or delete the column {name} if its times are wrong"
     )
 
@@ -256,9 +260,11 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
         values, wrong = table.numbers(places[key], key, remedy_of_line(rate is not None))
         readings.append(-values if names[key].startswith("-") and names[key] not in table.names else values)
         faults += wrong
+    across = 0.0
     if not faults and pair == SENSOR:
         is_stated = bool({*SENSOR} & {*settings.get("columns", {})})
-        faults += third_axis_faults(table, names, places, readings, unit, is_stated)
+        across, wrong = third_axis(table, names, places, readings[0], unit, is_stated)
+        faults += wrong
     if rate is None:
         time, wrong = table.seconds(places["time"], TIME_UNITS[time_unit])
         faults += wrong
@@ -277,44 +283,44 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
     return Recording(
         *(time, turn(accelerations, mount), pair, accelerations, quanta, lines, names, unit, time_unit),
         sampling="stamped" if rate is None else "rate",
+        across=across,
     )
 
 
-def third_axis_faults(
-    table: Any, names: Mapping[str, str], places: Mapping[str, int], readings: list, unit: str, is_stated: bool
-) -> list[tuple[int, str]]:
-    """What the third axis of a sensor, which is not used, says about the choice of x and z.
+def third_axis(
+    table: Any, names: Mapping[str, str], places: Mapping[str, int], along: np.ndarray, unit: str, is_stated: bool
+) -> tuple[float, list[tuple[int, str]]]:
+    """The share of the vibration along the track that the unused third axis of a sensor has, and faults.
 
-    is_stated : whether the config states x or z; then the plate may vibrate across the track
+    Of a turned sensor, the share is the tangent of the angle; noise and a vibration out of phase have no part in it.
+
+    is_stated : whether the config states x or z; then the plate may vibrate across the track, and the share is 0
     """
     free = [place for place, name in enumerate(table.names) if place not in places.values()]
     free = [place for place in free if OF_SENSOR.fullmatch(table.names[place])]
     if len(free) != 1:
-        return []
+        return 0.0, []
     values, wrong = table.numbers(free[0], table.names[free[0]])
     if wrong or not len(values):
-        return []
+        return 0.0, []
     name = table.names[free[0]]
-    along = readings[0]
     if GRAVITY[0] < abs(values.mean()) * UNITS[unit] / STANDARD_GRAVITY < GRAVITY[1]:
         shown = f"has gravity in the column {name}, which is not used"
         remedy = f"set {columns_entry({**names, 'z': name})}, and check x"
-        return [(table.header, f"{shown}: the axis normal to the track is {name}; {remedy}")]
-    # Of a turned sensor, this is the tangent of the angle; noise and a vibration out of phase have no part in it.
-    share = abs(np.cov(along, values)[0, 1]) / max(float(np.var(along, ddof=1)), 1e-300)
-    degrees = math.degrees(math.atan(share))
+        return 0.0, [(table.header, f"{shown}: the axis normal to the track is {name}; {remedy}")]
+    if is_stated:
+        return 0.0, []
+    share = float(abs(np.cov(along, values)[0, 1])) / max(float(np.var(along, ddof=1)), 1e-300)
+    if share <= TURNED:
+        return share, []
     proposed = {**names, "x": name} if share > 1.0 else names
-    if share > TURNED and not is_stated:
-        return [
-            (
-                table.header,
-                f"vibrates in the column {name}, which is not used, with {share:.2g} times the vibration in "
-                f"{quote(names['x'])}: the sensor may be turned about its normal by {degrees:.0f}°, so that the "
-                f"amplitude would be too small; turn it, or say which axis is along the track by "
-                f"{columns_entry(proposed)}",
-            )
-        ]
-    return []
+    fault = (
+        f"vibrates in the column {name}, which is not used, with {share:.2g} times the vibration in "
+        f"{quote(names['x'])}: the sensor may be turned about its normal by {math.degrees(math.atan(share)):.0f}°, so "
+        f"that the amplitude would be too small; turn it, or say which axis is along the track by "
+        f"{columns_entry(proposed)}"
+    )
+    return share, [(table.header, fault)]
 
 
 def remedy_of_line(is_counted: bool) -> str:
