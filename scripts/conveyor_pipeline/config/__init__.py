@@ -21,7 +21,7 @@ class Loaded(NamedTuple):
 
     config: dict  # canonical, with the tables of all methods and of tighter tolerances
     merged: dict  # canonical, as files and command line give it
-    is_paper: bool  # whether all models are the paper's, so that its claims, remarks and marks apply
+    is_paper: bool  # whether all models are the paper's and nothing is measured, so that its claims and marks apply
     stated: dict  # what overlays and command line state, as they give it
 
 
@@ -86,4 +86,6 @@ def load_config(overlay_files: Sequence[str | Path], config: dict) -> Loaded:
         if key not in whole[section]:
             whole["figures_on_request"].pop(section, None)
     merged = canonical(whole)
-    return Loaded(with_tighter(by_methods(merged)), merged, not any(other_models(merged, paper)), stated)
+    has_measurements = any(key in whole[section] for section, key in MEASURED_FILES.items())
+    is_paper = not has_measurements and not any(other_models(merged, paper))
+    return Loaded(with_tighter(by_methods(merged)), merged, is_paper, stated)

@@ -2,6 +2,7 @@
 
 import difflib
 import math
+import re
 from collections.abc import Iterable
 from reprlib import Repr
 from textwrap import shorten
@@ -95,6 +96,9 @@ def explain(error: dict, config: Any) -> str:
         unit = f" in {unit_of(schema)}" if unit_of(schema) in KEYS else ""
         return f"{key} is missing; give it{unit} ({schema['description'].partition(';')[0]})"
     if kind == "extra_forbidden":
+        # {frequency: 50,5 Hz} has the key "5 Hz".
+        if value is None and re.match(r"\d", str(path[-1])):
+            return f"{above} has the key {path[-1]!r}; write decimal points, not commas"
         known = [name for option in options_of(schema_at(path[:-1])) for name in option.get("properties", {})]
         return f"{key} is an unknown key; {suggest_name(path[-1], known)}"
     if kind == "value_error":
@@ -122,6 +126,8 @@ def explain(error: dict, config: Any) -> str:
     has_unit = isinstance(value, str) and not is_number(value)
     if kind == "less_than_equal" and unit == "rad" and not has_unit and (degrees := float(value)) <= 360:
         remedy = f"; angles are in radians, {degrees:g}° are {math.radians(degrees):.4f} rad: write {degrees:g} deg"
+    if kind in ("less_than", "less_than_equal") and unit == "m" and not has_unit:
+        remedy = f"; lengths are in metres: write {float(value):g} mm"
     is_share = unit.startswith("of ") and kind in ("less_than", "less_than_equal") and not has_unit
     if is_share and 1 < (percent := float(value)) < 100:
         remedy = f"; this is a share: write {percent:g} % or {percent / 100:g}"

@@ -11,6 +11,7 @@ from project import ROOT, si_config
 
 from conveyor import Columns, Conveyor, Start, classify, ensemble, parameter_table, plate_motion, simulate
 from conveyor_pipeline.common.labelling import label_entry
+from conveyor_pipeline.common.rule_log import JobError
 from conveyor_pipeline.common.steepness import steepness
 from conveyor_pipeline.config.tables import TABLES
 from conveyor_pipeline.machine.operating import (
@@ -339,11 +340,13 @@ REMEDIES = {"key": "operating.acceleration", "start": "lower `operating.accelera
 REMEDIES["stop"] = "raise `operating.acceleration.stop`"
 
 
-def page_of(shares_table: pd.DataFrame, tables: list[pd.DataFrame], assumed=(), assumed_model=()) -> str:
+def page_of(
+    shares_table: pd.DataFrame, tables: list[pd.DataFrame], assumed=(), assumed_model=(), measured_drive=""
+) -> str:
     rows, advice_rows, changes = tables
     found = intervals_of(shares_table)
     tables = (rows, shares_table, found, advice_rows, changes)
-    return chart.make(TEMPLATE, *tables, assumed, assumed_model, REMEDIES)
+    return chart.make(TEMPLATE, *tables, assumed, assumed_model, measured_drive, REMEDIES)
 
 
 def intervals_of(table: pd.DataFrame) -> pd.DataFrame:
@@ -825,3 +828,27 @@ def test_the_chart_says_what_the_supply_does_and_how_exactly_a_controller_must_h
     assert "as far off as the supply makes it (-26 % to +38 %)" in page
     page = page_of(refined, [rows[rows.acceleration == 31.0], advice_rows, changes])
     assert "have 1 cm/s instead of 2 cm/s.\n" in page and "a controller must hold" not in page
+
+
+def test_the_chart_names_a_recording_that_it_does_not_use(refined):
+    assert "recording" not in page_of(refined, advised())
+    assert "Name `results/a/measured_drive.yaml` behind your config" in page_of(
+        refined, advised(), measured_drive="results/a/measured_drive.yaml"
+    )
+    config = {"excitation": {"measured": "mine.csv"}}
+    measured = {"model": {"acceleration": 40.0, "frequency": 50.0, "harmonics": []}}
+    assert settings.uses_recording({"excitation": {}}, {})
+    assert settings.uses_recording(config, measured)
+    assert not settings.uses_recording(config, {"model": {"mass": 1e-3}})
+
+
+def test_a_drive_that_feeds_backwards_is_named(refined):
+    page = page_of(refined, advised(velocity_worst=-0.02, velocity_50=-0.01))
+    assert "Most parts move backwards there" in page and "may be better" not in page.split("##")[0]
+
+
+def test_parts_beyond_the_range_of_the_model_are_an_error_with_the_key():
+    config = si_config()
+    own = settings.transit_settings({**config, "model": config["model"] | {"friction": 9.0}})
+    with pytest.raises(JobError, match=r"parts.friction = 0.15 makes parts with friction from .* outside \[0, 10\]"):
+        parts.population(np.array([40.0]), own)

@@ -7,6 +7,7 @@ from conveyor_pipeline.machine.operating.settings import (
     assumed_model,
     assumed_parts,
     remedies_for_amplitudes,
+    uses_recording,
 )
 
 # If the config says so, the parameters of parts are drawn from the samples of the calibration, around their best values. The overlay
@@ -169,6 +170,7 @@ rule operating_chart:
         **stage("conveyor_pipeline.machine.operating.chart"),
         assumed=assumed_parts(config, loaded.stated),
         assumed_model=assumed_model(loaded.stated, origins_of(config)) if PREFIX else [],
+        measured_drive="" if uses_recording(config, loaded.stated) else result("measured_drive.yaml"),
         remedies=remedies_for_amplitudes(config, loaded.stated),
     script:
         "../../../scripts/conveyor_pipeline/make.py"

@@ -144,11 +144,13 @@ def make(
     changes: pd.DataFrame,
     assumed: Sequence[str],
     assumed_model: Sequence[str],
+    measured_drive: str,
     remedies: dict[str, str],
 ) -> str:
     """The page from its template and its tables.
 
     assumed, assumed_model : differences of parts, and parameters of the model, that the config does not state
+    measured_drive : the overlay with the drive of a recording that the config names and does not use; else empty
     remedies : for an amplitude at an end of the examined ones, see settings.remedies_for_amplitudes
     """
     rows = group_narrow(regimes, advice.attrs["margin"])
@@ -167,6 +169,7 @@ def make(
         "long_flight": LONG_FLIGHT,
         "assumed": {name: transit.attrs["spread"][name] for name in assumed},
         "assumed_model": {name: transit.attrs["model"][name] for name in assumed_model},
+        "measured_drive": measured_drive,
         "remedies": remedies,
         "options": advice.attrs | ({"part_length": body["length"]} if body else {}),
         "body": body,

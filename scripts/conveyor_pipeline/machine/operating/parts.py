@@ -9,7 +9,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor import Block
+from conveyor import RANGES, UNITS, Block
 from conveyor.analysis.map_states import plate_heights
 from conveyor.elementary import cos, exp, log, sin
 from conveyor_pipeline.common import grid
@@ -90,6 +90,20 @@ def with_calibration(settings: dict, samples: pd.DataFrame | None, parameters: p
     return {**settings, "calibrated": calibrated_factors(samples, settings)}
 
 
+def check_ranges(rows: np.ndarray, settings: dict) -> None:
+    """JobError for parts whose parameters lie outside the range of the model."""
+    for name in (*COLUMNS, "static_friction"):
+        (low, high), values = RANGES[name], rows[name]
+        if ((values < low) | (values > high)).any():
+            key = "friction" if name == "static_friction" else name
+            other = "operating.acceleration" if key == "acceleration" else f"model.{name}"
+            raise JobError(
+                f"parts.{key} = {settings['spread'][key]} makes parts with {name} from {values.min():.4g} to "
+                f"{values.max():.4g} {UNITS[name]}, outside [{low:g}, {high:g}]; give a smaller parts.{key}, or "
+                f"another {other}"
+            )
+
+
 def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np.ndarray:
     """Parameters of n parts at each of m amplitudes (m/s²), shape (m n,).
 
@@ -110,6 +124,7 @@ def population(amplitudes: np.ndarray, settings: dict, kind: str = VARIED) -> np
             rows[name] *= np.tile(column, len(amplitudes))
         rows["static_friction"] *= np.tile(of_static[:, COLUMNS.index("friction")], len(amplitudes))
         rows["static_friction"] = np.maximum(rows["static_friction"], rows["friction"])
+        check_ranges(rows, settings)
     rows["psi0"], rows["vz0"] = phase, velocity
     rows["z0"] = height + plate_heights(rows)
     return rows

@@ -232,6 +232,13 @@ def assumed_model(stated: dict, derived: Iterable[str]) -> list[str]:
     return [name for name in ("frequency", "angle", "mass", "friction", "stiffness", "damping") if name not in known]
 
 
+def uses_recording(config: dict, stated: dict) -> bool:
+    """Whether the model has the drive of the recording that the config names, or the config names none."""
+    return "measured" not in config["excitation"] or {"acceleration", "frequency", "harmonics"} <= {
+        *(stated.get("model") or {})
+    }
+
+
 def parts_settings(config: dict, without: Iterable[str] = ()) -> dict:
     """The settings of the transit table without its amplitudes, for tables that follow the same parts at others."""
     return {name: value for name, value in transit_settings(config, without).items() if name != "acceleration"}
