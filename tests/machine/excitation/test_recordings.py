@@ -944,7 +944,7 @@ def test_lines_in_reverse_order_are_refused_with_and_without_a_rate():
     assert "the last lines come first; reverse their order" in fault_of(text)
     fault = fault_of(text, rate=1600.0)
     assert "the last lines come first; reverse their order" in fault
-    assert "because excitation.rate counts them in the order of the file" in fault
+    assert "has times that go back in line 3, where excitation.rate would count on" in fault
 
 
 def test_a_second_run_is_refused_also_with_a_rate():

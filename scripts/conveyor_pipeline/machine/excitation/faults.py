@@ -491,7 +491,7 @@ def clock_faults(signal: Signal) -> Iterator[Fault]:
         relative = abs(change) / (2.0 * math.pi * signal.fitted.frequency * np.ptp(signal.time))
         yield (
             f"has a phase between both axes that drifts by {abs(change):.2g} rad from begin to end, as where two "
-            f"loggers measure them, whose clocks differ by {1e6 * relative:.2g} ppm, or where the drive changes; "
+            f"loggers measure them, whose clocks differ by {1e6 * relative:.3g} ppm, or where the drive changes; "
             "record both axes with one logger, and keep a piece in which the drive runs steadily"
         )
 

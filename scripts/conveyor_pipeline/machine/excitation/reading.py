@@ -193,9 +193,9 @@ def rate_fault(table: Any, rate: float) -> str | None:
         return None
     seconds, wrong = table.seconds(place, 1.0)
     name = quote(table.names[place])
-    if np.isfinite(seconds).all() and remedy_of_order(seconds):
-        line, fault = wrong[0]
-        return f"has the line {line} with {fault}, because excitation.rate counts them in the order of the file"
+    if np.isfinite(seconds).all() and (remedy := remedy_of_order(seconds)):
+        line, _ = wrong[0]
+        return f"has times that go back in line {line}, where excitation.rate would count on; {remedy}"
     if wrong or seconds[-1] <= seconds[0]:
         return None
     stated = TIME_UNITS.get(plain(table.units[place]))
