@@ -988,3 +988,9 @@ def test_the_errors_contain_what_the_third_axis_says_of_a_turned_sensor(degrees)
     for name in ("acceleration", "angle"):
         assert abs(values[name] - getattr(drive, name)) < 2.1 * errors[name]
     assert quality["across"] == pytest.approx(np.tan(turned), rel=1e-3)
+
+
+@pytest.mark.parametrize(("drift", "noise", "colour"), [(0.3, 0.3, 0.99), (0.3, 0.05, 0.5), (0.1, 0.05, 0.99)])
+def test_an_amplitude_that_rises_is_no_second_sensor(drift, noise, colour):
+    drive = replace(PURE, cycles=400.0, drift=drift, noise=noise, colour=colour)
+    assert estimates(drive.text())[3]["drift"] == pytest.approx(drift, rel=0.05)

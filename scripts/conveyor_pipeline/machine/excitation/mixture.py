@@ -11,6 +11,7 @@ ROUNDS = 8
 LEFT = 0.15
 USUAL = 0.99  # share of the lines that are no spikes
 LEAST_LINES = 0.1  # share of the lines of the second sensor
+MOST_UNEVEN = 0.5  # difference of the second sensor's share between the halves of the recording
 LEAST_TURNS = 0.02  # changes from one sensor to the other per clear line: drives do not change at once and often
 
 
@@ -33,6 +34,9 @@ def mixture_of(time: np.ndarray, signals: np.ndarray, fitted: Fit) -> float | No
     # Where the signal is small, both fits are equally near.
     is_clear = np.abs(errors[1] - errors[0]) > np.median(np.abs(errors[1] - errors[0]))
     turns = np.diff(is_second[is_clear]).mean()
+    begin, end = (half.mean() for half in np.array_split(is_second[is_clear], 2))
+    if abs(end - begin) > MOST_UNEVEN:  # an amplitude that rises or falls
+        return None
     sizes = (fitted.residual**2).sum(axis=0)
     is_usual = sizes <= np.quantile(sizes, USUAL)
     if errors.min(axis=0)[is_usual].sum() > LEFT * sizes[is_usual].sum() or turns < LEAST_TURNS:
