@@ -168,9 +168,9 @@ FIGURES = config["figures"] | config["figures_on_request"]
 
 
 def settings_of_figure(figure):
-    """The settings of a figure, with the paper's numbers that it marks on the paper's conveyor."""
+    """The settings of a figure, with the paper's numbers that it marks in the results without a prefix."""
     entry = FIGURES[figure]
-    return entry.get("settings", {}) | (entry.get("marks", {}) if IS_PAPER else {})
+    return entry.get("settings", {}) | ({} if PREFIX else entry.get("marks", {}))
 
 
 def figure_modules(figure, part="figures"):

@@ -48,6 +48,6 @@ rule caption:
         **stage("conveyor_pipeline.figures.captions", scripts=caption_scripts),
         settings=lambda wildcards: settings_of_figure(wildcards.figure),
         figure="{figure}",
-        paper=IS_PAPER,
+        paper=not PREFIX,
     script:
         "../../scripts/conveyor_pipeline/make.py"

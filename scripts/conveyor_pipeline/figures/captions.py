@@ -38,7 +38,7 @@ def make(figure: str, settings: dict, paper: bool, template: str, **tables: pd.D
     Parameters
     ----------
     settings : of the figure
-    paper : whether the figure shows the paper's conveyor
+    paper : whether the text may speak of the paper, as it does in results without a prefix
     template : with the title
     tables : by their roles
 
