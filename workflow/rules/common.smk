@@ -152,7 +152,7 @@ def check_paper(target):
     """An error for a target about the paper's conveyor, if this config has another model."""
     if not IS_PAPER:
         raise WorkflowError(
-            f"{target} is about the paper's conveyor, but this config changes the model, or that of an entry of the paper; use the paper's config"
+            f"{target} is about the paper's conveyor, but this config has another model, or names measurements; use the paper's config"
         )
 
 

@@ -92,10 +92,10 @@ def remedy_of_order(time: Any) -> str:
     import numpy as np
 
     steps = np.diff(time)
-    if len(steps) and np.mean(steps < 0.0) > 0.5:
+    if np.count_nonzero(steps < 0.0) > np.count_nonzero(steps > 0.0):
         return "the last lines come first; reverse their order"
-    back = steps[steps < 0.0]
-    if len(back) == 1 and back[0] < -RESTART * np.median(np.abs(steps)):
+    back, usual = steps[steps < 0.0], float(np.median(np.abs(steps))) if len(steps) else 0.0
+    if len(back) == 1 and 0.0 < RESTART * usual < -back[0]:
         return "a second run, or an overflow of the clock, begins there; keep the lines before or behind it"
     return ""
 

@@ -126,8 +126,8 @@ def explain(error: dict, config: Any) -> str:
     has_unit = isinstance(value, str) and not is_number(value)
     if kind == "less_than_equal" and unit == "rad" and not has_unit and (degrees := float(value)) <= 360:
         remedy = f"; angles are in radians, {degrees:g}° are {math.radians(degrees):.4f} rad: write {degrees:g} deg"
-    if kind in ("less_than", "less_than_equal") and unit == "m" and not has_unit:
-        remedy = f"; lengths are in metres: write {float(value):g} mm"
+    if kind in ("less_than", "less_than_equal") and unit == "m" and not has_unit and float(value) < 1000:
+        remedy = f"; if it is in millimetres, write {float(value):g} mm"
     is_share = unit.startswith("of ") and kind in ("less_than", "less_than_equal") and not has_unit
     if is_share and 1 < (percent := float(value)) < 100:
         remedy = f"; this is a share: write {percent:g} % or {percent / 100:g}"

@@ -121,10 +121,10 @@ def excitation(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         return
     model, stated_model = config["model"], stated.get("model") or {}
     # Also if it is the default.
-    drive = {
+    measured = {
         name: model[name] for name in faults.DRIVE if name in stated_model or model[name] != defaults["model"][name]
     }
-    settings = {**section, "inclination": model["inclination"], **drive}
+    settings = {**section, "inclination": model["inclination"], **measured}
     try:
         text = csv_table.read_text(path, "excitation.measured", reading.MOST_BYTES)
         table = csv_table.parse(text, path, reading.wanted(section), reading.HEADER_UNITS, reading.EXAMPLE)

@@ -193,3 +193,13 @@ def test_a_plate_that_throws_backwards_is_named():
     made = tables_of(replace(DRIVE, phase_shift=3.0))
     text = page_of(made, comparison(0.01, 0.04))
     assert "normal to it by 172°: **the plate throws backwards**" in " ".join(text.split())
+
+
+def test_overlay_and_page_say_how_many_harmonics_are_left_out():
+    many = tables_of(
+        replace(DRIVE, harmonics=tuple((order, 0.05, 0.3, 0.05, 1.0) for order in range(2, 17)), cycles=100.0)
+    )
+    text = overlay.make(many["parameters"], many["harmonics"])
+    assert "harmonics:   # 3 smaller ones above the noise are left out; a model takes at most 12" in text
+    assert len(yaml.safe_load(text)["model"]["harmonics"]) == 12
+    assert "3 harmonics above the noise, the smallest ones" in page_of(many, comparison(0.01, 0.04))

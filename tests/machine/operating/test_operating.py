@@ -836,7 +836,7 @@ def test_the_chart_names_a_recording_that_it_does_not_use(refined):
         refined, advised(), measured_drive="results/a/measured_drive.yaml"
     )
     config = {"excitation": {"measured": "mine.csv"}}
-    measured = {"model": {"acceleration": 40.0, "frequency": 50.0, "harmonics": []}}
+    measured = {"model": {"acceleration": 40.0, "frequency": 50.0, "harmonics": [], "angle": 0.2, "phase_shift": 0.1}}
     assert settings.uses_recording({"excitation": {}}, {})
     assert settings.uses_recording(config, measured)
     assert not settings.uses_recording(config, {"model": {"mass": 1e-3}})

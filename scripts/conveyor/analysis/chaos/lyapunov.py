@@ -136,8 +136,8 @@ def lyapunov_spectrum(
                 for first in range(0, len(logs), AT_ONCE):
                     if codes[i] == OK:
                         target = logs[first : first + AT_ONCE], contacts[first : first + AT_ONCE]
-                        arguments = parameters[i], states[i], tolerance, harmonics
-                        codes[i] = fill_stretches(*arguments, tangent, *target)
+                        row_arguments = parameters[i], states[i], tolerance, harmonics
+                        codes[i] = fill_stretches(*row_arguments, tangent, *target)
             values[i], errors[i] = stretching.exponents(measured[0], blocks)
             contact_times[i] = measured[1].mean()
 

@@ -25,7 +25,7 @@ from scipy.stats import f as f_distribution
 from scipy.stats import t as t_distribution
 
 from conveyor_pipeline.machine.excitation.gravity import NO_GRAVITY, Gravity, wrap
-from conveyor_pipeline.machine.excitation.harmonics import Fit, duration_of, phases_of
+from conveyor_pipeline.machine.excitation.harmonics import Fit, drift_between_axes, duration_of, phases_of
 from conveyor_pipeline.machine.excitation.modulation import modulation_of
 from conveyor_pipeline.machine.excitation.reading import AXES, Recording, turn
 from conveyor_pipeline.machine.excitation.sample_times import CHECKED
@@ -177,7 +177,7 @@ def parameters(
 
     Where gravity deviates, the scale or the mount of the sensor is wrong by this much, or not at all, if the sensor has
     an offset. An interval contains both, so the deviation widens it once, beside the noise. The scale may be that of
-    one axis alone, which changes the angle.
+    one axis alone, which changes the angle. So do a sensor that its third axis shows turned, and a phase that drifts.
 
     rate_error : relative standard error of the sampling rate
     """
@@ -201,6 +201,8 @@ def parameters(
         "angle": (sine * cosine) ** 2 * (variance(by_axis[1] - by_axis[0]) + added.sum()),
         "phase_shift": variance(noise.phase[0, 0] - noise.phase[1, 0]) + added.sum(),
     }
+    # Any phase between begin and end may be the right one.
+    drifts = {"phase_shift": 0.5 * abs(drift_between_axes(recording.time, fit)) / NORMAL}
     values = values_of(fit.amplitudes, fit.frequency)
 
     def change(name: str, mount: float, scale: ArrayLike, rate: float) -> float:
@@ -215,7 +217,8 @@ def parameters(
             values[name],
             math.hypot(noise.student * math.sqrt(errors[name]), change(name, known.noise, known.noise, rate_error))
             + max(abs(change(name, known.lean, scale, 0.0)) for scale in scales) / NORMAL
-            + abs(change(name, 0.0, [math.hypot(1.0, recording.across) - 1.0, 0.0], 0.0)) / NORMAL,
+            + abs(change(name, 0.0, [math.hypot(1.0, recording.across) - 1.0, 0.0], 0.0)) / NORMAL
+            + drifts.get(name, 0.0),
         )
         for name in PARAMETERS
     }

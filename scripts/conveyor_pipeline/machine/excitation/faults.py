@@ -57,7 +57,7 @@ LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
 MOST_DISPLACEMENT = 0.03  # m: slow shaking conveyors have up to 20 mm
 LEAST_FREQUENCY = 3.0  # Hz; with half of gravity, a plate would move by 14 mm
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
-DAY = 86400.0  # s
+LONG = {"days": 86400.0, "hours": 3600.0}  # s
 DIFFERENT = 2.0  # difference of two frequencies in units of 1/T
 LEAST_CHANGE = 0.01  # of gravity, where another sensor begins
 CHANCE = 1e-4  # that noise alone looks like a jump of the phase or the amplitude
@@ -70,8 +70,7 @@ OUTLIER = 20.0  # times the 95 % quantile of a column, from which a sample is no
 UNSTEADY = 0.15  # relative standard deviation of the amplitude, above which its mean is no parameter of the drive
 NO_FUNDAMENTAL = 0.005  # share of the whole amplitude below which an axis does not vibrate
 MOST_WANDER = 0.3  # rad; the amplitude would be wrong by 4 %
-# rad, and standard errors: a phase between both axes that changes by more belongs to two clocks, or to another drive.
-MOST_DRIFT, CLEAR_DRIFT = 0.05, 8.0
+MOST_DRIFT = 0.15  # rad, of the phase between both axes; a smaller drift is part of its error
 # A clipped signal stays at its extreme value far longer than near it.
 NEAR, SPIKE, PLATEAU, FLAT, LEAST_FLAT = 0.002, 4.0, 3.0, 0.01, 20
 CHANCE_OF_FLAT = 0.01  # that the flattest wave looks cut off
@@ -82,7 +81,7 @@ COARSE = 20.0  # steps of the readings; with more noise, chance puts few samples
 # Readings that a slower channel holds: least share in each piece, and its product with the median of the other changes
 # in steps, which is about 0.3 for a wave and for noise, at any size of the steps.
 HELD, MOVING = 0.1, 2.0
-DRIVE = ("frequency", "angle", "phase_shift")  # Hz and rad: what a recording shows of the model
+DRIVE = ("frequency", "angle", "phase_shift")  # parameters of the model that a recording measures
 CYCLES = {2: "second", 3: "third", 4: "fourth"}
 WEAK = 2.0  # times as strong as the fundamental: a harmonic that may be the drive itself
 # Strips at the extreme, in halves of the span of the values; ratio of the first to the second; and how many times the
@@ -486,13 +485,13 @@ def phase_faults(signal: Signal) -> Iterator[Fault]:
 
 def clock_faults(signal: Signal) -> Iterator[Fault]:
     """A phase between both axes that drifts, as of two loggers."""
-    change, error = drift_between_axes(signal.time, signal.fitted)
-    if abs(change) > max(MOST_DRIFT, CLEAR_DRIFT * error):
+    change = drift_between_axes(signal.time, signal.fitted)
+    if abs(change) > MOST_DRIFT:
         relative = abs(change) / (2.0 * math.pi * signal.fitted.frequency * np.ptp(signal.time))
         yield (
-            f"has a phase between both axes that drifts by {abs(change):.2g} rad from begin to end, as where two "
-            f"loggers measure them, whose clocks differ by {1e6 * relative:.3g} ppm, or where the drive changes; "
-            "record both axes with one logger, and keep a piece in which the drive runs steadily"
+            f"has a phase between both axes that drifts by {abs(change):.2g} rad from begin to end: two loggers with "
+            f"clocks that differ by {1e6 * relative:.3g} ppm measured the axes, a second vibration is near, or the "
+            "drive changes; record both axes with one logger, and keep a piece in which the drive runs steadily"
         )
 
 
@@ -532,15 +531,16 @@ def frequency_faults(signal: Signal) -> Iterator[Fault]:
         )
     elif frequency > MOST_FREQUENCY:
         remedy = "state the unit of its times as excitation.time_unit (s, ms, µs, ns)"
-        if LEAST_FREQUENCY < frequency / DAY < MOST_FREQUENCY:
-            remedy = f"its times look like days, as spreadsheets have them; multiply them by {DAY:.0f}"
+        fits = [name for name, unit in LONG.items() if LEAST_FREQUENCY < frequency / unit < MOST_FREQUENCY]
+        if fits:
+            remedy = f"its times may be in {' or '.join(fits)}, as spreadsheets have them; export them in s"
         yield f"vibrates at {frequency:.5g} Hz, as no conveyor does; {remedy}"
     elif stated and abs(frequency / stated - 1.0) > OTHER_FREQUENCY:
         factor = frequency / stated
         if abs(factor - 2.0) < 2.0 * OTHER_FREQUENCY:
             yield (
-                f"vibrates at {frequency:.5g} Hz, twice model.frequency = {stated:g}, as where a magnet pulls twice in "
-                f"each cycle of the mains; set model.frequency: {frequency:.5g}, or correct its times"
+                f"vibrates at {frequency:.5g} Hz, twice model.frequency = {stated:g}; a magnet pulls twice in each "
+                f"cycle of the mains: set model.frequency: {frequency:.5g}, or correct its times"
             )
             return
         lost = f", if one of {factor / (factor - 1.0):.3g} samples is lost," if 1.0 < factor < 2.0 else ""

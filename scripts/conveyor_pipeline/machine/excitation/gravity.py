@@ -111,7 +111,7 @@ def fitting_columns(recording: Recording, means: np.ndarray, mount: float, incli
 
 
 def format_angle(angle: float) -> str:
-    """An angle (rad) in four decimals, which no mount is set more exactly than; "0" for less."""
+    """An angle (rad), rounded to four decimals; no mount is set more precisely."""
     return f"{round(angle, 4) + 0.0:.4g}"
 
 

@@ -21,7 +21,8 @@ GAP = 6.0  # mean intervals between two samples from which on they have a gap be
 LEAST_CYCLES = 1.5  # of the lowest frequency that is a vibration and no drift
 PIECE = 4  # cycles, at least, of a piece of the recording whose amplitude is measured
 MOST_PIECES = 50
-LEAST_PIECES = 8  # for a straight line through them with a standard error
+# Pieces for a straight line through them, and standard errors of its slope from which it is no noise.
+LEAST_PIECES, CLEAR_DRIFT = 8, 8.0
 CHECKED_ORDERS = 8  # of a first fit
 PHASES = 64  # in a cycle that count as different; a drive that is nearly locked to the sampling drifts by less
 # A further line counts from this share of the fundamental of its axis, if its power is this multiple of the noise's
@@ -198,18 +199,18 @@ def steadiness(time: np.ndarray, fitted: Fit) -> dict[str, float]:
     }
 
 
-def drift_between_axes(time: np.ndarray, fitted: Fit) -> tuple[float, float]:
-    """The change (rad) of the phase between both axes from begin to end, by a straight line, and its standard error.
+def drift_between_axes(time: np.ndarray, fitted: Fit) -> float:
+    """The change (rad) of the phase between both axes from begin to end, by a straight line; 0 if it may be noise.
 
-    Infinite without enough pieces. A common wander of both phases does not count.
+    A common wander of both phases does not count.
     """
     middles, sizes, errors = pieces_of(time, fitted)
     if len(sizes) < LEAST_PIECES:
-        return 0.0, math.inf
+        return 0.0
     along, normal = np.angle(1.0 + errors)
     (slope, _), covariance = np.polyfit(middles, along - normal, 1, cov=True)
-    duration = time[-1] - time[0]
-    return float(slope * duration), float(math.sqrt(covariance[0, 0]) * duration)
+    is_clear = abs(slope) > CLEAR_DRIFT * math.sqrt(covariance[0, 0])
+    return float(slope * (time[-1] - time[0])) if is_clear else 0.0
 
 
 def further_line(time: np.ndarray, fitted: Fit) -> tuple[float, float] | None:

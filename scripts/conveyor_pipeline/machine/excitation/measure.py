@@ -11,6 +11,7 @@ from conveyor_pipeline.machine.excitation.faults import later_faults
 from conveyor_pipeline.machine.excitation.gravity import gravity_of
 from conveyor_pipeline.machine.excitation.harmonics import (
     Fit,
+    drift_between_axes,
     duration_of,
     first_fit,
     fit,
@@ -93,6 +94,7 @@ TABLES = {
         fields.number("deviation", "1", "relative standard deviation of the amplitude over the pieces"),
         fields.number("wander", "rad", "standard deviation of the phase over the pieces, against a constant frequency"),
         fields.number("deviation_of_noise", "1", "this deviation if only the noise caused it"),
+        fields.number("between_axes", "rad", "change of the phase between both axes from begin to end; 0 if noise"),
         fields.number("drift", "1", "relative change of the amplitude from begin to end, by a straight line"),
     ),
     "samples": (
@@ -210,6 +212,7 @@ def make(measured: str, settings: dict) -> dict[str, dict]:
         "other_frequency": extra_line[0] if extra_line else math.nan,
         "other_amplitude": extra_line[1] if extra_line else math.nan,
         **steadiness(recording.time, fitted),
+        "between_axes": drift_between_axes(recording.time, fitted),
     }
     for axis, name in enumerate(AXES):
         quality[f"{name}_offset"] = fitted.offsets[axis]

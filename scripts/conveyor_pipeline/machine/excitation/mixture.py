@@ -34,8 +34,8 @@ def mixture_of(time: np.ndarray, signals: np.ndarray, fitted: Fit) -> float | No
     # Where the signal is small, both fits are equally near.
     is_clear = np.abs(errors[1] - errors[0]) > np.median(np.abs(errors[1] - errors[0]))
     turns = np.diff(is_second[is_clear]).mean()
-    begin, end = (half.mean() for half in np.array_split(is_second[is_clear], 2))
-    if abs(end - begin) > MOST_UNEVEN:  # an amplitude that rises or falls
+    first_share, last_share = (half.mean() for half in np.array_split(is_second[is_clear], 2))
+    if abs(last_share - first_share) > MOST_UNEVEN:  # an amplitude that rises or falls
         return None
     sizes = (fitted.residual**2).sum(axis=0)
     is_usual = sizes <= np.quantile(sizes, USUAL)

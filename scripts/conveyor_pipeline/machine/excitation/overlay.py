@@ -38,8 +38,7 @@ def make(parameters: pd.DataFrame, harmonics: pd.DataFrame) -> str:
     file = parameters.attrs["measured"]
     head = f"# Measured: {file}. Name this file behind the overlay that names the accelerometer file."
     dropped = int(harmonics.above_noise.sum()) - len(shares)
-    comment = (
-        f"   # without {dropped} smaller ones above the noise, because a model has {MOST_HARMONICS}" if dropped else ""
-    )
+    limit = f"   # {dropped} smaller ones above the noise are left out; a model takes at most {MOST_HARMONICS}"
+    comment = limit if dropped else ""
     listed = [f"  harmonics:{comment}", *shares] if shares else ["  harmonics: []   # none is above the noise"]
     return "\n".join([head, "model:", *lines, *listed, ""])

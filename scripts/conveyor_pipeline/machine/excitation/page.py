@@ -9,7 +9,7 @@ from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.excitation import comparison as compared
 from conveyor_pipeline.machine.excitation.effects import MEASURES
 from conveyor_pipeline.machine.excitation.estimates import CHANCE, NORMAL
-from conveyor_pipeline.machine.excitation.limits import MATTERS, OTHER_FREQUENCY, STATEMENT
+from conveyor_pipeline.machine.excitation.limits import MATTERS, OTHER_DIRECTION, OTHER_FREQUENCY, STATEMENT
 from conveyor_pipeline.machine.excitation.reading import AXES
 from conveyor_pipeline.machine.operating.populations import differences
 
@@ -67,6 +67,7 @@ def make(
             "other": not math.isnan(fit["other_frequency"]),
             "chance": CHANCE,
             "other_frequency": OTHER_FREQUENCY,
+            "other_direction": OTHER_DIRECTION,
             "changes": changes,
             "matters": MATTERS,
             "verdict": verdict_of(list(changes.values()), max(largest_hidden.values())),

@@ -32,7 +32,7 @@ AXES, SENSOR = tuple(DIRECTIONS), ("x", "z")  # the two pairs of columns
 MOST_SAMPLES = 2_000_000  # 80 s at 25 kHz; the fit of more takes minutes and gigabytes, and gains nothing
 MOST_BYTES = 50 * MOST_SAMPLES
 LEAST_SAMPLES = 64  # eight cycles of eight samples
-ANOTHER_RATE = 1.001  # a stated rate contradicts the times of a file by more; the frequency would be as wrong
+ANOTHER_RATE = 1.001  # largest ratio of a stated rate to that of the times; the frequency has the same error
 EXAMPLE = 'time,along,normal, or excitation.columns names them by number, such as {time: "1", x: "2", z: "3"}'
 # Names of columns that need no `columns` in the config: phyphox writes `Acceleration x (m/s^2)`, others accel_x or ax.
 KNOWN = {"time": re.compile(r"(time|timestamp|t|(time|timestamp|t)[ _](s|ms|us|µs|ns))", re.IGNORECASE)}
@@ -60,7 +60,7 @@ class Recording(NamedTuple):
     sampling: str = "stamped"  # how the times follow from the file; see sample_times.py
     repeated: int = 0  # lines that repeat the readings of the line before, and that are left out
     rate_error: float = 0.0  # relative standard error of the sampling rate
-    across: float = 0.0  # vibration in the unused axis over that along the track, of which the sensor may be turned
+    across: float = 0.0  # vibration in the unused axis over that along the track; a turned sensor causes it
     resolution: float = 0.0  # s, to which uneven times are rounded
     others: tuple["Recording", ...] = ()  # the same with other times that its signal fits about as well
 
@@ -191,14 +191,19 @@ def rate_fault(table: Any, rate: float) -> str | None:
     place = next((place for place, name in enumerate(table.names) if KNOWN["time"].fullmatch(name)), None)
     if place is None or len(table.lines) < 2:
         return None
+    unit = plain(table.units[place])
+    if unit and unit not in (*TIME_UNITS, *LONG_UNITS):  # a temperature T
+        return None
     seconds, wrong = table.seconds(place, 1.0)
     name = quote(table.names[place])
-    if np.isfinite(seconds).all() and (remedy := remedy_of_order(seconds)):
-        line, _ = wrong[0]
-        return f"has times that go back in line {line}, where excitation.rate would count on; {remedy}"
+    if np.isfinite(seconds).all() and (line := line_of_restart(table, seconds)):
+        return (
+            f"has times that go back in line {line}, which excitation.rate would ignore; {remedy_of_order(seconds)}, "
+            f"or delete the column {name} if it holds no times"
+        )
     if wrong or seconds[-1] <= seconds[0]:
         return None
-    stated = TIME_UNITS.get(plain(table.units[place]))
+    stated = TIME_UNITS.get(unit)
     raw_rate = (len(seconds) - 1) / (seconds[-1] - seconds[0])
     rates = [raw_rate / unit for unit in ([stated] if stated else TIME_UNITS.values())]
     nearest = min(rates, key=lambda candidate: abs(math.log(candidate / rate)))
@@ -210,6 +215,18 @@ def rate_fault(table: Any, rate: float) -> str | None:
         f"has the column {name} with {nearest:.6g} samples per second, but excitation.rate is {rate:g}; correct the "
         f"rate, or leave it out, or delete the column {name} if its times are wrong"
     )
+
+
+def line_of_restart(table: Any, seconds: np.ndarray) -> int | None:
+    """The line of the first step back of times (s) in reverse order, or of a second run, which begins as the first one.
+
+    None for other times: a clock that overflows begins elsewhere.
+    """
+    steps = np.diff(seconds)
+    back = np.flatnonzero(steps < 0.0) + 1
+    is_reversed = len(back) > 0 and (steps <= 0.0).all()
+    begins_again = len(back) == 1 and abs(seconds[back[0]] - seconds[0]) <= 2.0 * np.median(np.abs(steps))
+    return int(table.lines[back[0]]) if is_reversed or begins_again else None
 
 
 def quantum(readings: np.ndarray) -> float:
@@ -263,7 +280,7 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
     across = 0.0
     if not faults and pair == SENSOR:
         is_stated = bool({*SENSOR} & {*settings.get("columns", {})})
-        across, wrong = third_axis(table, names, places, readings[0], unit, is_stated)
+        across, wrong = third_axis(table, names, places, turn(np.array(readings), mount)[0], unit, is_stated)
         faults += wrong
     if rate is None:
         time, wrong = table.seconds(places["time"], TIME_UNITS[time_unit])

@@ -232,11 +232,13 @@ def assumed_model(stated: dict, derived: Iterable[str]) -> list[str]:
     return [name for name in ("frequency", "angle", "mass", "friction", "stiffness", "damping") if name not in known]
 
 
+# What the overlay of a measured drive states of the model.
+MEASURED_DRIVE = {"acceleration", "frequency", "angle", "phase_shift", "harmonics"}
+
+
 def uses_recording(config: dict, stated: dict) -> bool:
     """Whether the model has the drive of the recording that the config names, or the config names none."""
-    return "measured" not in config["excitation"] or {"acceleration", "frequency", "harmonics"} <= {
-        *(stated.get("model") or {})
-    }
+    return "measured" not in config["excitation"] or {*(stated.get("model") or {})} >= MEASURED_DRIVE
 
 
 def parts_settings(config: dict, without: Iterable[str] = ()) -> dict:
