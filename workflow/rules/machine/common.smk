@@ -30,4 +30,4 @@ def models_of_examples(wildcards):
     """A param: the models of the examples, without amplitude and initial condition, by name."""
     files = {name: ROOT / f"config/examples/{name}.yaml" for name in EXAMPLES}
     configs = {name: load_config([file], {}).merged for name, file in files.items()}
-    return {name: model_of(own, without=INITIAL_CONDITION) for name, own in configs.items()}
+    return {name: model_of(merged, without=INITIAL_CONDITION) for name, merged in configs.items()}

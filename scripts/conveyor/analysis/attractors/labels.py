@@ -97,9 +97,7 @@ def classify(
         options = {"cycles": cycles, "attractors": attractors, "exponents": exponents, "threads": threads}
         with progress_bar(total=2 * n, label=progress) as shown:
             rows = as_table(parameters).reshape(shape)
-            labelled, again = (
-                classify(rows, **options, tolerance=tolerance, progress=shown) for tolerance in tolerances
-            )
+            labelled, again = (classify(rows, **options, tolerance=limit, progress=shown) for limit in tolerances)
         return Columns({**labelled, "confirmed": (again.state == labelled.state) & (again.period == labelled.period)})
     trajectories, table_rows = new_trajectories(n), table.rows_of(parameters)
     # Trajectories in chaos take a hundred times as long as others. In a mixed order, all ranges take about as long as

@@ -60,12 +60,12 @@ class BifurcationPoint(NamedTuple):
 
 def linearise(groups: Groups, state: np.ndarray, period: int, psi0: float = 0.0) -> Linearisation | None:
     """The image of a scaled state (x, y) at the phase ψ0 after `period` cycles, or None where the motion is lost."""
-    moved = stroboscopic_map.state_of(groups, state)
-    status, matrices, features = stroboscopic_map.monodromy(packed(groups, psi0), TOLERANCE, moved, period, 0.0)
+    strobe = stroboscopic_map.state_of(groups, state)
+    status, matrices, features = stroboscopic_map.monodromy(packed(groups, psi0), TOLERANCE, strobe, period, 0.0)
     if status != OK:
         return None
     impacts = int(features[:, stroboscopic_map.IMPACTS].sum())
-    return Linearisation(stroboscopic_map.smooth_state(groups, moved), linear_algebra.chain(matrices), impacts)
+    return Linearisation(stroboscopic_map.smooth_state(groups, strobe), linear_algebra.chain(matrices), impacts)
 
 
 def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | None:
@@ -87,14 +87,14 @@ def at_phase_zero(parameters: np.ndarray, state: np.ndarray) -> np.ndarray | Non
     groups, (length, velocity) = groups_of(parameters), length_and_speed_units(parameters)
     psi0 = float(as_rows(parameters)[PSI0])
     c = contact.constants(packed(groups, psi0), TOLERANCE)
-    moved = np.array(state) / (length, velocity)
+    strobe = np.array(state) / (length, velocity)
     remaining = (-psi0 % (2.0 * math.pi)) / c.omega
     features, no_tangent = np.zeros(stroboscopic_map.FEATURES), np.empty((0, 2))
     if remaining > 0.0:
-        status = stroboscopic_map.advance(c, contact.workspace(), moved, psi0, remaining, no_tangent, features)
+        status = stroboscopic_map.advance(c, contact.workspace(), strobe, psi0, remaining, no_tangent, features)
         if status != OK:
             return None
-    return stroboscopic_map.smooth_state(groups, moved)
+    return stroboscopic_map.smooth_state(groups, strobe)
 
 
 def conditions(kind: str, period: int, unknown: np.ndarray, groups: Groups) -> np.ndarray:
@@ -190,12 +190,12 @@ def touching_point(groups: Groups, state: np.ndarray, period: int) -> np.ndarray
     row = packed(groups)
     c = contact.constants(row, TOLERANCE)
     series, features = contact.workspace(), np.zeros(stroboscopic_map.FEATURES)
-    moved, no_tangent = stroboscopic_map.state_of(groups, state), np.empty((0, 2))
+    strobe, no_tangent = stroboscopic_map.state_of(groups, state), np.empty((0, 2))
     passed = []
     step = c.period / MOMENTS
     for n in range(period * MOMENTS):
-        passed.append((n % MOMENTS * step, *moved))
-        if stroboscopic_map.advance(c, series, moved, n % MOMENTS * step, step, no_tangent, features) != OK:
+        passed.append((n % MOMENTS * step, *strobe))
+        if stroboscopic_map.advance(c, series, strobe, n % MOMENTS * step, step, no_tangent, features) != OK:
             return None
     phase, x, speed = np.array(passed).T
     following = np.roll(speed, -1)

@@ -137,23 +137,23 @@ def follow_branch(orbit: Orbit, parameter: str, limits: tuple[float, float], *, 
 def _follow(orbit, parameter, limits, direction, shown):
     """Orbits and bifurcations in the order in which they are met, the reason of the end, and the orbit's parent."""
     returns = ReturnMap(orbit.parameters, orbit.period, parameter)
-    begin = returns.unknown(orbit)
-    beginning = returns.strobes(begin)
+    current = returns.unknown(orbit)
+    first_strobes = returns.strobes(current)
     orbits, bifurcations = [orbit], []
     lengths = {"first": FIRST_STEP, "smallest": SMALLEST_STEP, "largest": LARGEST_STEP}
-    steps = follow_curve(returns.correct, returns.tangent, begin, direction, **lengths, straight=STRAIGHT)
-    for begin, end, tangent, _, length in steps:
-        if orbit.period % 2 == 0 and linear_algebra.dot(returns.halving(begin), returns.halving(end)) < 0.0:
+    steps = follow_curve(returns.correct, returns.tangent, current, direction, **lengths, straight=STRAIGHT)
+    for current, following, tangent, _, length in steps:
+        if orbit.period % 2 == 0 and linear_algebra.dot(returns.halving(current), returns.halving(following)) < 0.0:
             half = ReturnMap(orbit.parameters, orbit.period // 2, parameter)
-            unknown = half.newton(0.5 * (begin + end))
+            unknown = half.newton(0.5 * (current + following))
             return orbits, bifurcations, "period halving", None if unknown is None else half.describe(unknown)
-        orbits.append(returns.describe(end))
+        orbits.append(returns.describe(following))
         bifurcations += bifurcations_between(returns, *orbits[-2:])
         shown.update()
         if not limits[0] <= orbits[-1].value(parameter) <= limits[1]:
             return orbits, bifurcations, "limit", None
-        advance = linear_algebra.dot(beginning - begin, tangent)
-        aside = linear_algebra.length(beginning - begin - advance[:, None] * tangent)
+        advance = linear_algebra.dot(first_strobes - current, tangent)
+        aside = linear_algebra.length(first_strobes - current - advance[:, None] * tangent)
         if len(orbits) > 3 and ((advance > 0.0) & (advance <= length) & (aside < 0.1 * length)).any():
             return orbits, bifurcations, "closed", None
         if len(orbits) == MAX_ORBITS:
