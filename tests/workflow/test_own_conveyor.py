@@ -92,7 +92,7 @@ def test_a_figure_that_takes_no_harmonics_says_so(tmp_path):
 def test_what_is_about_the_papers_conveyor_is_refused_for_another_one(target, subject, tmp_path):
     run = dry_run({"prefix": "mine", "model": {"friction": 0.2}}, tmp_path, target)
     assert run.returncode != 0
-    assert f"{subject} is about the paper's conveyor, but this config changes the model" in run.stdout
+    assert f"{subject} is about the paper's conveyor, but this config has another model" in run.stdout
 
 
 def test_figures_and_captions_of_another_conveyor_have_no_marks_and_remarks_of_the_paper(built):
