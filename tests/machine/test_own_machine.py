@@ -7,7 +7,7 @@ import yaml
 from project import ROOT, assert_refused, dry_run, load
 
 from conveyor import throw_number
-from conveyor_pipeline.config import ConfigError
+from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.machine.operating.settings import remedies_for_amplitudes, transit_axis
 
 
@@ -34,6 +34,11 @@ def test_dimensionless_settings_follow_the_conveyor_and_limits_in_si_units_do_no
     for section, keys in (("drive", ("impact_speed", "displacement", "velocity")), ("transit", ("length", "longest"))):
         assert [own[section][key] for key in keys] == [paper[section][key] for key in keys]
     assert own["parts"] == paper["parts"]
+
+
+def test_a_config_with_a_recording_is_not_the_papers():
+    recording = {"measured": str(ROOT / "config/examples/accelerometer.csv"), "unit": "g", "mount": 0.1}
+    assert not load_config([], {"prefix": "mine", "excitation": recording}).is_paper
 
 
 @pytest.mark.parametrize("model", [{"angle": 0.4}, {"inclination": 0.3, "gravity": 1.62}, {"frequency": 400.0}])

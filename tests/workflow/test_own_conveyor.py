@@ -14,7 +14,6 @@ EXAMPLES = {
     for path in sorted((ROOT / "config/examples").glob("*.yaml"))
     if path.stem not in ("measured", "accelerometer")
 }
-ACCELEROMETER = {"measured": str(ROOT / "config/examples/accelerometer.csv"), "unit": "g", "mount": 0.1}
 HARMONIC = {"order": 2, "along": 0.1, "along_phase": 0.0, "normal": 0.1, "normal_phase": 0.0}
 
 
@@ -26,7 +25,6 @@ HARMONIC = {"order": 2, "along": 0.1, "along_phase": 0.0, "normal": 0.1, "normal
         ({"model": {"static_friction": 0.15, "harmonics": [], "friction": 0.15, "frequency": 50}}, True),
         ({"prefix": "mine", "model": {"static_friction": 0.15}}, True),
         ({"prefix": "mine", "model": {"harmonics": []}}, True),
-        ({"prefix": "mine", "excitation": ACCELEROMETER}, False),
         ({"prefix": "mine", "model": {"friction": 0.2}}, False),
         ({"prefix": "mine", "model": {"static_friction": 0.2}}, False),
         ({"prefix": "mine", "model": {"harmonics": [HARMONIC]}}, False),
