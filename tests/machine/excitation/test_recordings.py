@@ -949,9 +949,10 @@ def test_lines_in_reverse_order_are_refused_with_and_without_a_rate():
     assert "reverse their order" in fault_of(coarse) and "reverse their order" in fault_of(coarse, rate=1600.0)
 
 
-@pytest.mark.parametrize("header", ["T,x,z", "T (°C),x,z"])
-def test_a_temperature_is_no_time_beside_a_rate(header):
-    temperature = 20.0 + np.random.default_rng(2).normal(size=len(TIMES)) - 0.01 * TIMES
+@pytest.mark.parametrize(("header", "noise"), [("T,x,z", 1.0), ("T (°C),x,z", 0.0)])
+def test_a_temperature_is_no_time_beside_a_rate(header, noise):
+    """One with noise, or one that falls all the time and has its unit."""
+    temperature = 20.0 + noise * np.random.default_rng(2).normal(size=len(TIMES)) - TIMES
     assert check(text_of(temperature, READINGS, header=header), {**PURE.settings, "rate": 1600.0}).sampling == "rate"
 
 
@@ -959,6 +960,12 @@ def test_a_clock_that_overflows_is_counted_on_with_a_rate():
     overflowing = np.floor(1e3 * TIMES + 65000.0) % 65536.0
     text = text_of(overflowing, READINGS, header="time (ms),x,z", digits=0)
     assert check(text, {**PURE.settings, "rate": 1600.0}).sampling == "rate"
+
+
+def test_a_time_that_is_late_near_the_beginning_is_no_second_run_beside_a_rate():
+    late = TIMES.copy()
+    late[1:3] = 2.5 * TIMES[1], 1.5 * TIMES[1]
+    assert check(text_of(late, READINGS), {**PURE.settings, "rate": 1600.0}).sampling == "rate"
 
 
 def test_a_small_drift_between_the_axes_is_part_of_the_error():

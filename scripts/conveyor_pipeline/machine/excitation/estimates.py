@@ -202,7 +202,7 @@ def parameters(
         "phase_shift": variance(noise.phase[0, 0] - noise.phase[1, 0]) + added.sum(),
     }
     # Any phase between begin and end may be the right one.
-    drifts = {"phase_shift": 0.5 * abs(drift_between_axes(recording.time, fit)) / NORMAL}
+    drift = 0.5 * abs(drift_between_axes(recording.time, fit)) / NORMAL
     values = values_of(fit.amplitudes, fit.frequency)
 
     def change(name: str, mount: float, scale: ArrayLike, rate: float) -> float:
@@ -218,7 +218,7 @@ def parameters(
             math.hypot(noise.student * math.sqrt(errors[name]), change(name, known.noise, known.noise, rate_error))
             + max(abs(change(name, known.lean, scale, 0.0)) for scale in scales) / NORMAL
             + abs(change(name, 0.0, [math.hypot(1.0, recording.across) - 1.0, 0.0], 0.0)) / NORMAL
-            + drifts.get(name, 0.0),
+            + (drift if name == "phase_shift" else 0.0),
         )
         for name in PARAMETERS
     }

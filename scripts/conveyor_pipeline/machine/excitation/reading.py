@@ -196,11 +196,10 @@ def rate_fault(table: Any, rate: float) -> str | None:
         return None
     seconds, wrong = table.seconds(place, 1.0)
     name = quote(table.names[place])
-    if np.isfinite(seconds).all() and (line := line_of_restart(table, seconds)):
-        return (
-            f"has times that go back in line {line}, which excitation.rate would ignore; {remedy_of_order(seconds)}, "
-            f"or delete the column {name} if it holds no times"
-        )
+    remedy = remedy_of_order(seconds) if np.isfinite(seconds).all() else ""
+    if remedy and (line := line_of_restart(table, seconds)):
+        fault = f"has times that go back in line {line}, which excitation.rate would ignore"
+        return f"{fault}; {remedy}, or delete the column {name} if it holds no times"
     if wrong or seconds[-1] <= seconds[0]:
         return None
     stated = TIME_UNITS.get(unit)
