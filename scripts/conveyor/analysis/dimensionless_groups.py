@@ -60,12 +60,11 @@ def groups_of(conveyor: Conveyor | np.ndarray) -> Groups:
     """
     parameters = one_row(conveyor)
     refuse_harmonics(parameters, "a motion that depends on dimensionless groups alone")
-    omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
-    mass, exponent = parameters[model.MASS], parameters[model.EXPONENT]
+    unit, unit_of_damping, exponent = units_of_contact(parameters)
     return Groups(
-        float(parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]) / gravity),
-        float(parameters[model.DAMPING] / contact_law.unit_of_damping(mass, omega, gravity)),
-        float(parameters[model.STIFFNESS] / mass * gravity ** (exponent - 1.0) / omega ** (2.0 * exponent)),
+        float(parameters[model.ACCELERATION] * math.sin(parameters[model.ANGLE]) / normal_gravity(parameters)),
+        float(parameters[model.DAMPING] / unit_of_damping),
+        float(parameters[model.STIFFNESS] / unit),
         float(exponent),
         int(parameters[model.TENSION]),
     )

@@ -21,7 +21,6 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import root
 
 from ... import linear_algebra
 from ...arguments import check_choice, check_limits, check_type
@@ -31,14 +30,13 @@ from ...progress import progress_bar
 from .. import stroboscopic_map
 from ..dimensionless_groups import Groups, amplitude_of, length_and_speed_units
 from .bifurcation_points import (
-    EVALUATIONS,
     GRAZING,
     SIGNS,
-    TOUCHES,
     BifurcationPoint,
     bifurcation_near,
     conditions,
     find_bifurcation,
+    find_touch,
     linearise,
     multiplier_test,
     touching_point,
@@ -454,11 +452,9 @@ def _grazings(equations, begin, end, status):
         phase = touching_point(equations.groups(near), near[:2], equations.period)
         if phase is None:
             continue
-        solution = root(functions, np.append(phase[0], near[2:]), tol=CONVERGED, options={"maxfev": EVALUATIONS})
-        if np.abs(solution.fun).max() < TOUCHES and np.abs(solution.x[1:] - near[2:]).max() < 2.0 * max(
-            np.abs(end - begin).max(), NEARBY
-        ):
-            groups = equations.groups(np.append(np.zeros(2), solution.x[1:]))
-            point = BifurcationPoint(GRAZING, equations.period, np.array([solution.x[0], groups.amplitude]), groups)
-            yield CodimensionTwoPoint(GRAZING, point, float(solution.x[2]), status)
+        touch = find_touch(functions, np.append(phase[0], near[2:]))
+        if touch is not None and np.abs(touch[1:] - near[2:]).max() < 2.0 * max(np.abs(end - begin).max(), NEARBY):
+            groups = equations.groups(np.append(np.zeros(2), touch[1:]))
+            point = BifurcationPoint(GRAZING, equations.period, np.array([touch[0], groups.amplitude]), groups)
+            yield CodimensionTwoPoint(GRAZING, point, float(touch[2]), status)
             return

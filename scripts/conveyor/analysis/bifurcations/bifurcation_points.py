@@ -9,6 +9,7 @@ Pⁿ(0) = 0. Difference quotients give the derivatives of these functions.
 """
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -28,8 +29,9 @@ TOLERANCE = 1e-14
 # number of corrections.
 CONVERGED, STAGNANT = 1e-12, 1e-7
 ITERATIONS = 30
-# Evaluations of the functions whose zero is a grazing, and their largest value at a grazing.
-EVALUATIONS, TOUCHES = 60, 1e-8
+# Searches for a touch, each from the end of the one before; evaluations of each; largest value of the functions there.
+# The derivative of the map changes with the square root of the distance from a touch, which is known to TOLERANCE.
+SEARCHES, EVALUATIONS, TOUCHES = 6, 60, math.sqrt(TOLERANCE)
 FARTHEST = 10.0
 DIFFERENCE = 3e-6  # step of difference quotients, in the unknowns
 # Largest relative difference of the amplitudes of one bifurcation that was found in two ways.
@@ -138,15 +140,27 @@ def find_bifurcation(kind: str, period: int, unknown: np.ndarray, groups: Groups
         return (value, difference_quotients(functions, unknowns, DIFFERENCE)) if np.isfinite(value).all() else None
 
     if kind == GRAZING:
-        # Derivatives jump at a touch. Newton's iteration may alternate between both sides, Broyden's method does not.
-        solution = root(functions, unknown, tol=CONVERGED, options={"maxfev": EVALUATIONS})
-        solved = solution.x if np.abs(solution.fun).max() < TOUCHES else None
+        solved = find_touch(functions, unknown)
     else:
         limits = {"iterations": ITERATIONS, "largest": FARTHEST, "stagnant": STAGNANT}
         solved = newton(system, unknown, converged=CONVERGED, **limits)
     if solved is None:
         return None
     return BifurcationPoint(kind, period, solved, groups._replace(amplitude=float(solved[-1])))
+
+
+def find_touch(functions: Callable[[np.ndarray], np.ndarray], guess: np.ndarray) -> np.ndarray | None:
+    """The zero near a guess of functions whose derivatives jump there, because the orbit touches the plate, or None.
+
+    Newton's iteration may alternate between both sides of the jump. Broyden's method does not, but it converges slowly
+    with the derivatives of a guess on one side, so that it begins again.
+    """
+    for _ in range(SEARCHES):
+        solution = root(functions, guess, tol=CONVERGED, options={"maxfev": EVALUATIONS})
+        if np.abs(solution.fun).max() < TOUCHES:
+            return solution.x
+        guess = solution.x
+    return None
 
 
 def bifurcation_near(parameters: np.ndarray, kind: str, state: np.ndarray, period: int) -> BifurcationPoint | None:

@@ -74,6 +74,23 @@ def test_the_curve_turns_back_at_its_cusp(fold_over_damping):
     assert fold_over_damping.normal_forms[0] * fold_over_damping.normal_forms[-1] < 0.0
 
 
+def test_a_grazing_lies_between_the_points_where_the_impact_exists_and_where_not(fold_over_damping):
+    """The touching orbit is a fold, too, and every point on one side of it has one impact more."""
+    (grazing,) = (meeting for meeting in fold_over_damping.meetings if meeting.kind == GRAZING)
+    assert grazing.status == "ok"
+    phase, amplitude = grazing.point.unknown
+    touch = linearise(grazing.point.groups, np.zeros(2), 1, phase)
+    assert np.abs(touch.image).max() < 1e-7
+    assert abs(1.0 - np.trace(touch.matrix) + np.linalg.det(touch.matrix)) < 1e-6
+    impacts = np.array([linearise(point.groups, point.unknown[:2], 1).impacts for point in fold_over_damping.points])
+    (before,) = np.flatnonzero(np.diff(impacts))
+    between = slice(before, before + 2)
+    amplitudes = [point.groups.amplitude for point in fold_over_damping.points[between]]
+    assert min(amplitudes) < amplitude < max(amplitudes)
+    ratios = fold_over_damping.log_ratios[between]
+    assert ratios.min() < grazing.log_ratio < ratios.max()
+
+
 def test_normal_form_of_a_supercritical_doubling():
     """The doubled orbit of the paper's conveyor is stable: its cubic coefficient is positive."""
     value, right = normal_form(find_bifurcation("period_doubling", 1, DOUBLING, GROUPS), ALONG)
