@@ -10,14 +10,16 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import linear_algebra
+from ..analysis.bifurcations.newton import newton
 from ..analysis.bifurcations.periodic_orbits import ReturnMap
 from .balls import Refused
 
 # Distance from the fixed point at which trial excursions begin, and the distance within which they must return, in
 # scaled unknowns.
 LEAVING, RETURNED = 1e-4, 0.2
-# Trial excursions on each side; bisections of an excursion's beginning; corrections by Newton's iteration.
-EXCURSIONS, BISECTIONS, CORRECTIONS = 1000, 60, 6
+# Trial excursions on each side; bisections of an excursion's beginning.
+EXCURSIONS, BISECTIONS = 1000, 60
+CONVERGED, CORRECTIONS = 1e-10, 12  # of Newton's iteration: its last correction, and the number of corrections
 # Share of the half axes of the first set at which an excursion begins, and within which it ends.
 BEGINNING = 0.6
 
@@ -97,23 +99,27 @@ def find_excursions(saddle: Saddle, longest: int) -> Iterator[np.ndarray]:
     raise Refused(f"no further excursion of up to {longest} cycles returns to the fixed point")
 
 
-def correct_path(saddle: Saddle, path: np.ndarray) -> np.ndarray:
-    """An orbit whose ends lie on the straight unstable and stable directions, by Newton's iteration on all points."""
+def correct_path(saddle: Saddle, path: np.ndarray) -> np.ndarray | None:
+    """The orbit near a path whose ends lie on the straight unstable and stable directions, shape (n, 2), or None.
+
+    All of its points are unknowns of Newton's iteration.
+    """
     count, across = len(path), linear_algebra.inverse(saddle.axes)
-    for _ in range(CORRECTIONS):
+
+    def system(unknown):
+        points = unknown.reshape(count, 2)
         slope, value = np.zeros((2 * count, 2 * count)), np.zeros(2 * count)
-        slope[0, :2], value[0] = across[1], project(saddle, path[:1])[0, 1]
-        slope[-1, -2:], value[-1] = across[0], project(saddle, path[-1:])[0, 0]
+        slope[0, :2], value[0] = across[1], project(saddle, points[:1])[0, 1]
+        slope[-1, -2:], value[-1] = across[0], project(saddle, points[-1:])[0, 0]
         for k in range(count - 1):
             rows = slice(2 * k + 1, 2 * k + 3)
-            slope[rows, 2 * k : 2 * k + 2] = differentiate(saddle.parameters, saddle.amplitude, path[k])
+            slope[rows, 2 * k : 2 * k + 2] = differentiate(saddle.parameters, saddle.amplitude, points[k])
             slope[rows, 2 * k + 2 : 2 * k + 4] = -np.eye(2)
-            value[rows] = iterate(saddle.parameters, saddle.amplitude, path[k], 1)[1] - path[k + 1]
-        correction = linear_algebra.solve(slope, value)
-        if correction is None:
-            raise Refused("the equations of the excursion are singular")
-        path = path - correction.reshape(count, 2)
-    return path
+            value[rows] = iterate(saddle.parameters, saddle.amplitude, points[k], 1)[1] - points[k + 1]
+        return value, slope
+
+    corrected = newton(system, path.ravel(), converged=CONVERGED, iterations=CORRECTIONS)
+    return None if corrected is None else corrected.reshape(count, 2)
 
 
 def carry_directions(matrices: list[np.ndarray], axes: np.ndarray) -> list[np.ndarray]:
@@ -149,11 +155,18 @@ def plan_sets(
     """
     saddle = find_saddle(parameters, fixed[2], fixed[:2])
     for path in find_excursions(saddle, longest):
-        yield sets_along(saddle, path, size, ratio)
+        sets = sets_along(saddle, path, size, ratio)
+        if sets is not None:
+            yield sets
 
 
-def sets_along(saddle: Saddle, path: np.ndarray, size: float, ratio: float) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Centres and axes of the parallelograms along one excursion; arguments and results as in `plan_sets`."""
+def sets_along(
+    saddle: Saddle, path: np.ndarray, size: float, ratio: float
+) -> tuple[np.ndarray, list[np.ndarray]] | None:
+    """Centres and axes of the parallelograms along one excursion; arguments and results as in `plan_sets`.
+
+    None if no orbit is found near the path.
+    """
     out, back = project(saddle, path[[0, -1]])[[0, 1], [0, 1]]
     # Iterates along the straight directions extend the path until both ends lie within the first set.
     before, behind = [], []
@@ -165,6 +178,8 @@ def sets_along(saddle: Saddle, path: np.ndarray, size: float, ratio: float) -> t
         back *= saddle.multipliers[1]
         behind.append(saddle.point + back * saddle.axes[:, 1])
     path = correct_path(saddle, np.array([*before, *path, *behind]))
+    if path is None:
+        return None
     axes = carry_directions([differentiate(saddle.parameters, saddle.amplitude, point) for point in path], saddle.axes)
     first = saddle.axes / np.array([1.0, BEGINNING * size / abs(back)])
     # Both ends of the excursion lie within the set of the fixed point and need no sets of their own.

@@ -22,6 +22,7 @@ from ...solver.jit import compiled
 from ...solver.pieces import BEGIN_OF_CYCLE
 from ...solver.status import OK
 from .. import stroboscopic_map
+from ..bifurcations.newton import newton
 from ..dimensionless_groups import distance, length_and_speed_units
 from . import convergence, sampling
 from .attractor_table import NO_ATTRACTORS, AttractingOrbits, AttractorTable, ChaoticSets, append_row
@@ -39,8 +40,9 @@ FINE_GROWTH, LEAST_GROWTH, FINE_SHARE = 1.05, 1.3, 0.01
 # Spectral radii of a linearisation: a smaller one counts as FASTEST; above SLOW, no curve halves in PERIODS; above
 # SLOWEST, checking a curve takes seconds.
 FASTEST, SLOW, SLOWEST = 1e-4, 0.98, 0.9995
-REFINEMENTS = 4  # steps of Newton's iteration
-FAR = 0.01  # in g/ω² and g/ω; if Newton's iteration moves farther than this, it has left the orbit
+# Newton's iteration: its last correction in g/ω² and g/ω, the number of corrections, and the distance beyond which it
+# has left the orbit.
+CONVERGED, REFINEMENTS, FAR = 1e-10, 6, 0.01
 LONGEST = 8  # excitation cycles, longest period of an orbit with a trapping region
 NO_REGION = np.full(3, math.inf)  # the factor of an orbit without a trapping region, in which no state lies
 
@@ -152,17 +154,15 @@ def refine_orbit(
 
     A motion on its way to a slow orbit seems to repeat itself when it is still far away. Newton's iteration goes on.
     """
-    unit, point = np.array(length_and_speed_units(parameters)), near
-    for _ in range(REFINEMENTS):
-        linearisation = linearise(parameters, tolerance, point, period)
-        if linearisation is None or np.abs((point - near) / unit).max() > FAR:
-            return None
-        correction = linear_algebra.solve(np.eye(2) - linearisation[1], linearisation[0] - point)
-        if correction is None:
-            return None
-        point = point + correction
-    linearisation = linearise(parameters, tolerance, point, period)
-    return None if linearisation is None else (point, linearisation[1] * unit / unit[:, None])
+    unit = np.array(length_and_speed_units(parameters))
+
+    def system(scaled):
+        linear = linearise(parameters, tolerance, scaled * unit, period)
+        return None if linear is None else (linear[0] / unit - scaled, linear[1] * unit / unit[:, None] - np.eye(2))
+
+    scaled = newton(system, near / unit, converged=CONVERGED, iterations=REFINEMENTS, farthest=FAR)
+    linear = None if scaled is None else system(scaled)
+    return None if linear is None else (scaled * unit, linear[1] + np.eye(2))
 
 
 def find_trapping_region(
