@@ -289,6 +289,20 @@ def fill_monodromy(parameters, tolerance, harmonics, state, airborne, matrices, 
     return OK
 
 
+def repeated_period(strobes: np.ndarray, cycles: int, closeness: float) -> int:
+    """The least period, up to MAX_PERIOD cycles, with which a motion repeats itself in its last `cycles`; 0 for none.
+
+    strobes : its states in any units, shape (n, 2)
+    closeness : largest difference from the states a period before, in these units
+    """
+    earlier = strobes[-2 : -2 - MAX_PERIOD : -1]
+    for period in np.flatnonzero(np.abs(earlier - strobes[-1]).max(axis=1) <= closeness) + 1:
+        before = strobes[max(0, len(strobes) - cycles - period) : len(strobes) - period]
+        if len(before) == cycles and np.abs(strobes[-cycles:] - before).max() <= closeness:
+            return int(period)
+    return 0
+
+
 def smooth_state(c, state: np.ndarray) -> np.ndarray:
     """δ and Y of a state (δ, v); `c` as for contact_law.smooth_speed."""
     return np.array([state[0], contact_law.smooth_speed(c, state[0], state[1])])

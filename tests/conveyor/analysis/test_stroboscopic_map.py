@@ -101,3 +101,11 @@ def test_time_in_the_air_goes_on_over_cycles():
     _, features = strobes_of(conveyor, Start(z=0.05))
     assert (features[:, stroboscopic_map.IMPACTS][:-1] == 0.0).all()
     assert features[:-1, stroboscopic_map.AIRBORNE] == pytest.approx(np.arange(1, CYCLES) / conveyor.frequency)
+
+
+@pytest.mark.parametrize(("period", "expected"), [(1, 1), (3, 3), (64, 64), (65, 0)])
+def test_the_least_period_is_found(period, expected):
+    strobes = np.tile(np.random.default_rng(1).random((period, 2)), (256 // period + 1, 1))[:256]
+    assert stroboscopic_map.repeated_period(strobes, 64, 1e-9) == expected
+    strobes[-1] += 1e-8
+    assert stroboscopic_map.repeated_period(strobes, 64, 1e-9) == 0

@@ -52,14 +52,6 @@ def test_boundary_points_have_a_neighbour_with_another_label():
     assert len(map_check.draw_rows(near.ravel(), 100, random)) == 12
 
 
-@pytest.mark.parametrize(("period", "expected"), [(1, 1), (3, 3), (64, 64), (65, 0)])
-def test_the_least_period_is_found(period, expected):
-    strobes = np.tile(np.random.default_rng(1).random((period, 2)), (256 // period + 1, 1))[:256]
-    assert map_check.repeated_period(strobes, np.ones(2)) == expected
-    strobes[-1] += 1e-8
-    assert map_check.repeated_period(strobes, np.ones(2)) == 0
-
-
 def test_a_wrong_label_of_a_map_is_found():
     """A map of two points; one has the label of the other point."""
     table = pd.DataFrame({"state": ["first", "first"]})

@@ -21,7 +21,7 @@ from ...solver.model import FREQUENCY, Conveyor
 from ...solver.status import NOT_FINITE, OK, STATUS
 from .. import stroboscopic_map
 from ..dimensionless_groups import length_and_speed_units
-from ..stroboscopic_map import AT_ONCE, MAX_PERIOD
+from ..stroboscopic_map import AT_ONCE
 from . import stretching
 
 # Cycles within which a motion near its attractor repeats itself bit for bit, if it ever does.
@@ -193,11 +193,7 @@ def find_period(strobes: np.ndarray, unit: np.ndarray) -> int:
     same = np.flatnonzero((strobes[:-1] == strobes[-1]).all(axis=1))
     if len(same):
         return len(strobes) - 1 - int(same[-1])
-    scaled = strobes[-WATCHED - MAX_PERIOD :] / unit
-    for period in np.flatnonzero(np.abs(scaled[-2 : -2 - MAX_PERIOD : -1] - scaled[-1]).max(axis=1) <= ROUNDING) + 1:
-        if np.abs(scaled[-WATCHED:] - scaled[-WATCHED - period : -period]).max() <= ROUNDING:
-            return int(period)
-    return 0
+    return stroboscopic_map.repeated_period(strobes / unit, WATCHED, ROUNDING)
 
 
 def repeating_motion(

@@ -19,7 +19,7 @@ from scipy.ndimage import generate_binary_structure, maximum_filter, minimum_fil
 
 from conveyor import conveyor_and_start, lyapunov_spectrum, sample_runs, simulate
 from conveyor.analysis.attractors.labels import LONG_FLIGHT
-from conveyor.analysis.stroboscopic_map import MAX_PERIOD
+from conveyor.analysis.stroboscopic_map import repeated_period
 from conveyor.methods import modes
 from conveyor.parallel import for_each_chunk
 from conveyor_pipeline.common import fields, grid
@@ -84,16 +84,6 @@ def draw_rows(near: np.ndarray, points: int, random: np.random.Generator) -> np.
     )
 
 
-def repeated_period(strobes: np.ndarray, scale: np.ndarray) -> int:
-    """The least period (cycles) of the last REPEATS of some strobes, shape (n, 2); 0 for none."""
-    scaled = strobes / scale
-    last = scaled[-REPEATS:]
-    for period in range(1, min(MAX_PERIOD, len(scaled) - REPEATS) + 1):
-        if np.abs(last - scaled[-REPEATS - period : len(scaled) - period]).max() <= CLOSE:
-            return period
-    return 0
-
-
 def simulate_until_settled(row: np.ndarray) -> Settled:
     """Simulate the motion of a row of a table until it repeats itself."""
     row = np.array(row)
@@ -108,7 +98,7 @@ def simulate_until_settled(row: np.ndarray) -> Settled:
         strobes = np.column_stack([run.z[0], run.vz[0]])
         row["z0"], row["vz0"] = strobes[-1]
         cycles += BLOCK
-        period = repeated_period(strobes, scale)
+        period = repeated_period(strobes / scale, REPEATS, CLOSE)
     return Settled(period, cycles, row)
 
 
