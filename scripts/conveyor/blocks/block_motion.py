@@ -74,13 +74,12 @@ def next_impact(c, body, theta, state, limit, after, now):
 
     Fills the state `after` it, and `now` there.
     """
-    reach, margin = math.hypot(body.half_length, body.half_height), corners.margins_of(c, body).gap
-    bound = c.gravity + c.bounds.lift + reach * state[SPIN] * state[SPIN]
+    margin, bound = body.margins.gap, c.gravity + c.bounds.lift + body.reach * state[SPIN] * state[SPIN]
     tau = 0.0
     for _ in range(MAX_SEARCH):
         fly(state, c.gravity, c.downhill, tau, after)
         # The whole block lies within its reach around the centre.
-        clear = after[Z] - reach - c.bounds.height
+        clear = after[Z] - body.reach - c.bounds.height
         advance = time_of_fall(after[VZ], clear, c.gravity) if clear > margin else 0.0
         if clear <= margin or tau == limit:
             corners.locate(c, body, theta + c.omega * tau, after, now)
@@ -133,10 +132,10 @@ def repeats(c, body, before, between):
     """Whether two states, one block of cycles apart, are the same motion."""
     tolerance = min(c.tolerance, LOOSEST)
     speed, depth = SAME * tolerance * c.scale_v, SAME * tolerance * c.scale_w * c.scale_w
-    reach = math.hypot(body.half_length, body.half_height)
     linear = abs(between[VX] - before[VX]) <= speed and abs(between[VZ] - before[VZ]) <= speed
     turning = (
-        abs(between[ANGLE] - before[ANGLE]) * reach <= depth and abs(between[SPIN] - before[SPIN]) * reach <= speed
+        abs(between[ANGLE] - before[ANGLE]) * body.reach <= depth
+        and abs(between[SPIN] - before[SPIN]) * body.reach <= speed
     )
     return linear and turning and abs(between[Z] - before[Z]) <= depth
 
@@ -254,7 +253,7 @@ def go_on(c, body, theta, flying, kind, corner, state, now):
     touching, speed, slips = True, 0.0, -1
     if flying or kind == TOUCH:
         corners.locate(c, body, theta, state, now)
-        touching, speed = touch(now, corners.margins_of(c, body).gap)
+        touching, speed = touch(now, body.margins.gap)
     elif kind == PULL:
         now[PULLED, corner] = 1.0 - now[PULLED, corner]
     elif now[MODE, corner] == STICK:
@@ -289,9 +288,7 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
     state, after, between, before = no_refcount((states[0], states[1], states[2], states[3]))
     for i in range(len(parameters)):
         c = contact.compute_constants(parameters[i], tolerance, harmonics)
-        z0, vz0 = parameters[i, Z0], parameters[i, VZ0]
-        fall = (0.0 if math.isnan(z0) else abs(z0)) + 0.5 * vz0 * vz0 / c.gravity
-        body = corners.Body(0.5 * bodies[i, 0], 0.5 * bodies[i, 1], bodies[i, 2], fall)
+        body = corners.body_of(c, bodies[i], parameters[i, Z0], parameters[i, VZ0])
         end, cycles = times[i, -1], 1.0 + times[i, -1] * c.omega / TURN
         code, result = OK, results[i]
         theta, t = c.psi0 % TURN, 0.0

@@ -39,17 +39,23 @@ LEAST_SHARE = 1e-6  # of the friction, for a corner that hardly touches the plat
 ROUNDING = 1e-15  # share of the largest height of a centre by which rounding can change a gap
 # The smallest size that counts as a step over a limit: of a gap (m), a slip velocity (m/s) and a force per mass (m/s²).
 Margins = namedtuple("Margins", "gap slip force")
-# Half of the length and of the height (m), the moment of inertia per mass (m²), and the height (m) from which it falls.
-Body = namedtuple("Body", "half_length half_height inertia fall")
+# Half of the length and of the height (m), the moment of inertia per mass (m²), the distance of a corner from the centre
+# (m), and the Margins.
+Body = namedtuple("Body", "half_length half_height inertia reach margins")
 
 
 @compiled_inline
-def margins_of(c, body):
-    """The Margins at the tolerance of a conveyor, given by its contact.Constants."""
-    speed = c.scale_v + (c.a_x + c.gravity) / c.omega
-    reach = math.hypot(body.half_length, body.half_height)
-    gap = max(c.tolerance * c.scale_w * c.scale_w, ROUNDING * (reach + c.bounds.height + body.fall))
-    return Margins(gap, 0.1 * c.tolerance * speed, c.tolerance * c.gravity)
+def body_of(c, size, z0, vz0):
+    """The Body with a length, a height (m) and a moment of inertia per mass (m²), on a conveyor with contact.Constants.
+
+    z0, vz0 : height above the one at rest (m; NaN: on the plate) and velocity (m/s) of its centre at the beginning
+    """
+    half_length, half_height = 0.5 * size[0], 0.5 * size[1]
+    reach = math.hypot(half_length, half_height)
+    fall = (0.0 if math.isnan(z0) else abs(z0)) + 0.5 * vz0 * vz0 / c.gravity
+    gap = max(c.tolerance * c.scale_w * c.scale_w, ROUNDING * (reach + c.bounds.height + fall))
+    slip = 0.1 * c.tolerance * (c.scale_v + (c.a_x + c.gravity) / c.omega)
+    return Body(half_length, half_height, size[2], reach, Margins(gap, slip, c.tolerance * c.gravity))
 
 
 @compiled_inline
@@ -195,13 +201,12 @@ def choose_modes(c, body, theta, state, now, slips):
     """
     pull = locate(c, body, theta, state, now)
     push(c, now)
-    margin = margins_of(c, body).slip
     combinations = 1
     for i in range(CORNERS):
         now[MAY_STICK, i] = -1.0
         if now[MODE, i] == FREE:
             continue
-        at_rest = abs(now[SLIP, i]) <= margin and c.friction + c.static_friction > 0.0
+        at_rest = abs(now[SLIP, i]) <= body.margins.slip and c.friction + c.static_friction > 0.0
         now[MODE, i] = FORWARD if now[SLIP, i] > 0.0 else BACKWARD
         if at_rest:
             combinations *= 3

@@ -59,11 +59,10 @@ def take_step(c, body, theta, state, length, stages, after, now):
                 after[n] += weight * stages[j, n]
         corners.derive(c, body, theta + c.omega * NODES[k] * length, after, now, stages[k])
     # The scale of velocities is that of a fall by the static penetration, or the velocity itself.
-    reach = math.hypot(body.half_length, body.half_height)
     contact_time = c.scale_w * c.scale_w / c.scale_v
     worst = 0.0
     for place in range(X, STATE, 2):  # each position with its velocity
-        scale = c.scale_v / (reach if place == ANGLE else 1.0) + abs(after[place + 1])
+        scale = c.scale_v / (body.reach if place == ANGLE else 1.0) + abs(after[place + 1])
         for n, allowed in ((place, scale * contact_time), (place + 1, scale)):
             error = 0.0
             for k in range(STAGES):
@@ -120,13 +119,13 @@ def first_event(c, body, theta, state, length, stages, after, now, between):
 
     now : as `take_step` leaves it; between : an array of the shape of a state
     """
-    margins, rates = corners.margins_of(c, body), np.empty(STATE)
+    rates = np.empty(STATE)
     share, first_kind, corner = 1.0, NONE, -1
     place = found = 0
     while place < CORNERS * NONE:
         kind, i = place // CORNERS, place % CORNERS
         place += 1
-        half = 0.5 * margin_of(margins, now, kind, i)
+        half = 0.5 * margin_of(body.margins, now, kind, i)
         if (kind == first_kind and i == corner) or guard(c, now, kind, i) >= -2.0 * half:
             continue
         # The event is where the guard passes half of its margin, or the whole one if it begins beyond half of it: a

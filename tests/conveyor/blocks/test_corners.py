@@ -27,7 +27,7 @@ from conveyor.blocks.corners import (
 def test_corners_that_stick_share_the_friction_that_holds_them(sticking, heights, height):
     """Against the linear equations: no slip velocity changes, but for a slip in proportion to f/N."""
     random, sticking = np.random.default_rng(len(sticking)), list(sticking)
-    body = Body(2.5e-3, 0.5 * height, (5e-3**2 + height**2) / 12.0, 0.0)
+    body = Body(2.5e-3, 0.5 * height, (5e-3**2 + height**2) / 12.0, 0.0, None)
     state, now = np.zeros(STATE), np.zeros((ROWS, CORNERS))
     now[MODE] = FREE
     now[MODE, sticking] = STICK
