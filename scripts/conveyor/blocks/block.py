@@ -105,7 +105,7 @@ class BlockRun:
 
 
 def follow(rows, block, tilts, times, *, tolerance, since=0.0, distance=math.inf):
-    """What block_motion.follow fills: samples, shape (n, k, 6), and results, shape (n, 9)."""
+    """What block_motion.follow fills: samples, shape (n, k, 6), and results, shape (n, 6)."""
     n, k = times.shape
     inertia = (block.length**2 + block.height**2) / 12.0 if block.inertia is None else block.inertia
     blocks, since = np.tile([block.length, block.height, inertia], (n, 1)), np.full(n, since)
@@ -160,7 +160,7 @@ def simulate_block(
     before = (1.0 - LAST) * duration
     arguments = pack(conveyor, start)[None], block, np.array([tilt]), np.array([[before, duration]])
     ((last, end),), (result,) = follow(*arguments, tolerance=tolerance, since=before)
-    code, largest_tilt, airtime, impact_speed, peak_force, *_ = result.tolist()
+    code, largest_tilt, airtime, impact_speed, peak_force, _ = result.tolist()
     known = 1.0 if code == OK else math.nan
     return BlockRun(
         conveyor=conveyor,
@@ -233,7 +233,7 @@ def block_transits(
         return np.count_nonzero(results[part, block_motion.CODE] != OK)
 
     for_each_chunk(work, len(rows), threads=threads, chunk=16, progress=progress)
-    codes, largest_tilt, airtime, impact_speed, peak_force, arrival, *_ = results.T
+    codes, largest_tilt, airtime, impact_speed, peak_force, arrival = results.T
     late = np.isnan(arrival)
     ends = np.where(late, longest, arrival)
     known = np.where(ends > begin, 1.0, np.nan)

@@ -42,9 +42,9 @@ from .steps import NONE, PULL, STAGES, TOUCH, first_event, interpolate, take_ste
 SAMPLES = ("x", "vx", "z", "vz", "angle", "spin")
 # Columns of the results of runs: the status code; the largest angle (rad); from the time `since` on, the time without
 # contact (s), the largest speed of approach of a corner (m/s) and the largest sum of contact forces per mass (m/s²);
-# the time (s) at which the centre arrives, NaN if it does not; numbers of steps, of events and of times with a sample.
-CODE, TILT, AIRTIME, IMPACT_SPEED, PEAK_FORCE, ARRIVAL, STEPS, EVENTS, SAMPLED = range(9)
-RESULTS = 9
+# the time (s) at which the centre arrives, NaN if it does not.
+CODE, TILT, AIRTIME, IMPACT_SPEED, PEAK_FORCE, ARRIVAL = range(6)
+RESULTS = 6
 
 TURN = 2.0 * math.pi
 BELOW = 2.0  # margins by which a corner may be below the plate in flight
@@ -102,17 +102,16 @@ def next_impact(c, body, theta, state, limit, after, now):
 def touch(now, margin):
     """Close the contacts of all corners that are at the plate and approach it, open those that leave it.
 
-    Returns whether a corner is in contact, and the largest speed of approach of a new contact (m/s).
+    Returns the largest speed of approach of a new contact (m/s).
     """
-    touching, speed = False, 0.0
+    speed = 0.0
     for i in range(CORNERS):
         if now[MODE, i] == FREE and now[GAP, i] <= margin and now[RATE, i] < 0.0:
             now[MODE, i], now[PULLED, i] = FORWARD, 0.0
             speed = max(speed, -now[RATE, i])
         elif now[MODE, i] != FREE and now[GAP, i] >= (-margin if now[RATE, i] > 0.0 else margin):
             now[MODE, i] = FREE
-        touching = touching or now[MODE, i] != FREE
-    return touching, speed
+    return speed
 
 
 @compiled
@@ -141,25 +140,20 @@ def repeats(c, body, before, between):
 
 
 @compiled
-def begin(c, body, parameters, tilt, state, now):
-    """Fill the `state` at the beginning of a run, and `now` there; returns whether a corner is in contact."""
-    theta, z0 = c.psi0 % TURN, parameters[Z0]
+def begin(c, body, theta, z0, vz0, tilt, state, now, rates):
+    """Fill the `state` at the beginning of a run at a phase (rad), and its rates and `now` there."""
     if math.isnan(z0):
         z0 = plate.height(c, *plate.sine_and_cosine(theta))
     state[X], state[Z], state[ANGLE] = 0.0, z0 + body.half_height, tilt
-    state[VX], state[VZ], state[SPIN] = 0.0, parameters[VZ0], 0.0
+    state[VX], state[VZ], state[SPIN] = 0.0, vz0, 0.0
     now[:] = 0.0
     corners.locate(c, body, theta, state, now)
-    touching = False
-    for k in range(CORNERS):
-        if now[GAP, k] <= 0.0:
-            now[MODE, k], touching = FORWARD, True
+    for i in range(CORNERS):
+        now[MODE, i] = FORWARD if now[GAP, i] <= 0.0 else FREE
     corners.push(c, now)
-    for k in range(CORNERS):
-        now[PULLED, k] = 1.0 if now[WHOLE, k] < 0.0 else 0.0
-    if touching:
-        corners.choose_modes(c, body, theta, state, now, -1)
-    return touching
+    for i in range(CORNERS):
+        now[PULLED, i] = now[WHOLE, i] < 0.0
+    corners.choose_modes(c, body, theta, state, -1, now, rates)
 
 
 @compiled_inline
@@ -173,32 +167,27 @@ def longest_step(c):
 
 
 @compiled_inline
-def press(c, body, theta, state, limit, length, known, stages, after, between, now):
+def press(c, body, theta, state, limit, length, stages, after, between, now):
     """A step of the contact from a phase (rad), which ends at its first event and takes at most `limit` (s).
 
     Fills the state `after` it, its stages, and `now` at its end.
 
-    length, known : s, which is tried first; whether the first of the stages has been filled
+    length : s, which is tried first
+    stages : the first row is filled
 
     Returns
     -------
-    code, lapse, kind, corner : code of status.STATUS; duration (s); the event and its corner, see steps.first_event
-    length, tried : of the next step (s); number of steps that were tried
+    lapse, kind, corner : duration (s), NaN if the contact is too stiff; the event and its corner, see steps.first_event
+    length : of the next step (s)
     """
-    tried = 0
     while True:
-        if not known:
-            corners.derive(c, body, theta, state, now, stages[0])
         lapse = min(length, longest_step(c), limit)
         error = take_step(c, body, theta, state, lapse, stages, after, now)
-        tried += 1
         if error <= 1.0:
             break
-        # Also for an error that is not finite.
-        shrink = max(SAFETY * error**-0.2, LEAST) if math.isfinite(error) else LEAST
-        length, known = lapse * shrink, True
+        length = lapse * max(LEAST, SAFETY * error**-0.2)  # LEAST, too, if the error is NaN
         if length * c.omega < SHORTEST * TURN:
-            return TOO_STIFF, lapse, NONE, -1, length, tried
+            return math.nan, NONE, -1, length
     # A step that an event or the end cuts short says little of the next one.
     longer = lapse * min(SAFETY * max(error, 1e-10) ** -0.2, MOST)
     length = longer if lapse >= length else max(longer, length)
@@ -208,7 +197,7 @@ def press(c, body, theta, state, limit, length, known, stages, after, between, n
     else:
         lapse *= share
         take_step(c, body, theta, state, lapse, stages, after, now)
-    return OK, lapse, kind, corner, length, tried
+    return lapse, kind, corner, length
 
 
 @compiled_inline
@@ -245,24 +234,23 @@ def blocks_to_skip(c, body, before, between, blocks_left, distance_left):
 
 
 @compiled_inline
-def go_on(c, body, theta, flying, kind, corner, state, now):
-    """Fill the modes of the corners that follow a flight or an event; `state` and `now` are those at this moment.
+def go_on(c, body, theta, kind, corner, state, now, rates):
+    """Fill the modes of the corners that follow an event, and the rates; `state` and `now` are those at this moment.
 
-    Returns whether a corner is in contact, and the largest speed of approach of a new contact (m/s).
+    Returns the largest speed of approach of a new contact (m/s).
     """
-    touching, speed, slips = True, 0.0, -1
-    if flying or kind == TOUCH:
+    speed, slips = 0.0, -1
+    if kind == TOUCH:
         corners.locate(c, body, theta, state, now)
-        touching, speed = touch(now, body.margins.gap)
+        speed = touch(now, body.margins.gap)
     elif kind == PULL:
         now[PULLED, corner] = 1.0 - now[PULLED, corner]
     elif now[MODE, corner] == STICK:
         slips = corner
     else:
         state[VX] += now[SLIP, corner]  # which is zero but for the margin
-    if touching:
-        corners.choose_modes(c, body, theta, state, now, slips)
-    return touching, speed
+    corners.choose_modes(c, body, theta, state, slips, now, rates)
+    return speed
 
 
 @compiled_entry
@@ -279,7 +267,7 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
     samples : shape (n, k, 6), filled with the columns SAMPLES at the times (z above that at rest); on a track, at the
         last time only
     distance : m, at which a centre arrives; infinite without a track
-    results : zeros of the shape (n, 9), filled with the columns above
+    results : zeros of the shape (n, 6), filled with the columns above
     workspace : arrays to work in, of the shapes (4, 6), (7, 6) and (14, 4); the caller holds them
     """
     parameters, bodies, times, samples, results = no_refcount((parameters, bodies, times, samples, results))
@@ -288,33 +276,32 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
     state, after, between, before = no_refcount((states[0], states[1], states[2], states[3]))
     for i in range(len(parameters)):
         c = contact.compute_constants(parameters[i], tolerance, harmonics)
-        body = corners.body_of(c, bodies[i], parameters[i, Z0], parameters[i, VZ0])
+        z0, vz0 = parameters[i, Z0], parameters[i, VZ0]
+        body = corners.body_of(c, bodies[i], z0, vz0)
         end, cycles = times[i, -1], 1.0 + times[i, -1] * c.omega / TURN
         code, result = OK, results[i]
         theta, t = c.psi0 % TURN, 0.0
-        touching = begin(c, body, parameters[i], tilts[i], state, now)
+        begin(c, body, theta, z0, vz0, tilts[i], state, now, stages[0])
         result[TILT], result[ARRIVAL] = abs(tilts[i]), math.nan
         # On a track: the length of a block of cycles, and the time at which it ends; the furthest position; the time
         # without contact before the block.
         before[:] = math.inf
         block, furthest, airtime = CYCLES * TURN / c.omega, 0.0, 0.0
         due = block if distance < math.inf else math.inf
-        length, known = 0.01 * LONGEST * TURN / c.omega, False
+        length = 0.01 * LONGEST * TURN / c.omega
+        steps = events = sampled = 0
         while True:
-            flying, kind, corner = not touching, TOUCH, -1
+            flying, kind, corner = now[MODE].max() == FREE, TOUCH, -1
             if flying:
                 lapse = next_impact(c, body, theta, state, end - t, after, now)
-                if math.isnan(lapse):
-                    code = IMPACT_LOST
-                    break
             else:
                 # A step ends where statistics begin, so that they include the force there.
-                arguments = theta, state, (since[i] if t < since[i] else end) - t, length, known
-                code, lapse, kind, corner, length, tried = press(c, body, *arguments, stages, after, between, now)
-                result[STEPS] += tried
-                code = TOO_STIFF if result[STEPS] > cycles * MAX_STEPS else code
-                if code != OK:
-                    break
+                limit = (since[i] if t < since[i] else end) - t
+                lapse, kind, corner, length = press(c, body, theta, state, limit, length, stages, after, between, now)
+                steps += 1
+            if math.isnan(lapse) or steps > cycles * MAX_STEPS:
+                code = IMPACT_LOST if flying else TOO_STIFF
+                break
             course = state[VX], c.downhill if flying else 0.0, lapse, after[X] - state[X]
             furthest = max(furthest, after[X], state[X] + furthest_way(*course))
             tau = time_of_passage(distance - state[X], *course)
@@ -327,14 +314,11 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
                 result[AIRTIME] += max(min(t + lapse - since[i], lapse), 0.0)
             result[TILT] = max(result[TILT], largest_tilt(state, after, lapse))
             # Samples in this piece; at the end of the run, all that is left.
-            while result[SAMPLED] < times.shape[1]:
-                place = int(result[SAMPLED])
-                if times[i, place] > t + lapse and lapse < end - t:
-                    break
-                move(c, flying, state, lapse, stages, after, times[i, place] - t, between)
-                copy(samples[i, place], between)
-                samples[i, place, Z] -= body.half_height
-                result[SAMPLED] += 1.0
+            while sampled < times.shape[1] and (times[i, sampled] <= t + lapse or lapse >= end - t):
+                move(c, flying, state, lapse, stages, after, times[i, sampled] - t, between)
+                copy(samples[i, sampled], between)
+                samples[i, sampled, Z] -= body.half_height
+                sampled += 1
             if t + lapse > due:
                 move(c, flying, state, lapse, stages, after, due - t, between)
                 # Airtime repeats itself only where it counts during the whole block.
@@ -363,19 +347,17 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
                 if t >= since[i]:
                     result[PEAK_FORCE] = max(result[PEAK_FORCE], now[FORCE].sum())
                 keep_sticking(now, state)
-                copy(stages[0], stages[STAGES - 1])
-                known = kind == NONE
-                if known:
+                if kind == NONE:
+                    copy(stages[0], stages[STAGES - 1])
                     continue
-                result[EVENTS] += 1.0
-                if result[EVENTS] > cycles * MAX_EVENTS:
+                events += 1
+                if events > cycles * MAX_EVENTS:
                     code = TOO_MANY_EVENTS
                     break
-            touching, speed = go_on(c, body, theta, flying, kind, corner, state, now)
+            speed = go_on(c, body, theta, kind, corner, state, now, stages[0])
             if t >= since[i]:
                 result[IMPACT_SPEED] = max(result[IMPACT_SPEED], speed)
-                if touching:  # a damper pushes most as a corner touches the plate
-                    result[PEAK_FORCE] = max(result[PEAK_FORCE], now[FORCE].sum())
-            known = False
+                # A damper pushes most as a corner touches the plate.
+                result[PEAK_FORCE] = max(result[PEAK_FORCE], now[FORCE].sum())
         result[CODE] = code
-        samples[i, int(result[SAMPLED]) :] = math.nan
+        samples[i, sampled:] = math.nan

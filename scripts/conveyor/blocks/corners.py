@@ -25,9 +25,9 @@ STATE = 6
 CORNERS = 4
 # Rows of `now`: offset from the centre (m), gap (m) and its rate (m/s), slip velocity (m/s); contact force and friction
 # per mass (m/s²); one of the modes below; the contact force that spring and damper would have, and whether it is
-# negative, which matters for `frictionless` and `clip`; whether a corner may stick (-1: it slips), and its best mode so
-# far, in `choose_modes`; the weight and the rate w and b of `hold`.
-OX, OZ, GAP, RATE, SLIP, FORCE, RUB, MODE, WHOLE, PULLED, MAY_STICK, BEST, WEIGHT, NEED = range(14)
+# negative, which matters for `frictionless` and `clip`; whether a corner in contact has no slip velocity, and its best
+# mode so far, in `choose_modes`; the weight and the rate w and b of `hold`.
+OX, OZ, GAP, RATE, SLIP, FORCE, RUB, MODE, WHOLE, PULLED, RESTS, BEST, WEIGHT, NEED = range(14)
 ROWS = 14
 # What a corner does. With one of the last two it slips, and friction pushes it forward or backward.
 FREE, STICK, FORWARD, BACKWARD = 0.0, 1.0, 2.0, 3.0
@@ -39,8 +39,8 @@ LEAST_SHARE = 1e-6  # of the friction, for a corner that hardly touches the plat
 ROUNDING = 1e-15  # share of the largest height of a centre by which rounding can change a gap
 # The smallest size that counts as a step over a limit: of a gap (m), a slip velocity (m/s) and a force per mass (m/s²).
 Margins = namedtuple("Margins", "gap slip force")
-# Half of the length and of the height (m), the moment of inertia per mass (m²), the distance of a corner from the centre
-# (m), and the Margins.
+# Half of the length and of the height (m), the moment of inertia per mass (m²), the distance of a corner from the
+# centre (m), and the Margins.
 Body = namedtuple("Body", "half_length half_height inertia reach margins")
 
 
@@ -184,14 +184,14 @@ def violation(c, body, pull, state, now):
             rate -= (1.0 + now[OZ, i] * now[OZ, j] / body.inertia) * now[RUB, j]
         if now[MODE, i] == STICK:
             worst = max(worst, abs(now[RUB, i]) - c.static_friction * now[FORCE, i])
-        elif now[MAY_STICK, i] >= 0.0:  # at rest
+        elif now[RESTS, i]:
             worst = max(worst, -rate if now[MODE, i] == FORWARD else rate)
     return worst
 
 
 @compiled
-def choose_modes(c, body, theta, state, now, slips):
-    """Give each corner that touches the plate the mode that Coulomb's law demands.
+def choose_modes(c, body, theta, state, slips, now, rates):
+    """Give each corner that touches the plate the mode that Coulomb's law demands, and fill the rates of the state.
 
     A corner with a slip velocity slips. For those without, all combinations of stick and of slip either way are tried
     (Filippov's conditions); the first one that contradicts the law least is right. Combinations with more stick come
@@ -203,26 +203,18 @@ def choose_modes(c, body, theta, state, now, slips):
     push(c, now)
     combinations = 1
     for i in range(CORNERS):
-        now[MAY_STICK, i] = -1.0
-        if now[MODE, i] == FREE:
-            continue
-        at_rest = abs(now[SLIP, i]) <= body.margins.slip and c.friction + c.static_friction > 0.0
-        now[MODE, i] = FORWARD if now[SLIP, i] > 0.0 else BACKWARD
-        if at_rest:
-            combinations *= 3
-            now[MAY_STICK, i] = 0.0 if i == slips else 1.0
-    if combinations == 1:
-        return
+        if now[MODE, i] != FREE:
+            now[MODE, i] = FORWARD if now[SLIP, i] > 0.0 else BACKWARD
+            now[RESTS, i] = abs(now[SLIP, i]) <= body.margins.slip and c.friction + c.static_friction > 0.0
+            combinations *= 3 if now[RESTS, i] else 1
     least = math.inf
-    ahead, behind = (FORWARD, BACKWARD) if pull >= 0.0 else (BACKWARD, FORWARD)
+    ways = (STICK, FORWARD, BACKWARD) if pull >= 0.0 else (STICK, BACKWARD, FORWARD)
     for combination in range(combinations):
-        digits, allowed = combination, True
+        digits = combination
         for i in range(CORNERS):
-            if now[MAY_STICK, i] >= 0.0:
-                digit, digits = digits % 3, digits // 3
-                now[MODE, i] = STICK if digit == 0 else (ahead if digit == 1 else behind)
-                allowed = allowed and not (digit == 0 and now[MAY_STICK, i] == 0.0)
-        if not allowed:
+            if now[MODE, i] != FREE and now[RESTS, i]:
+                now[MODE, i], digits = ways[digits % 3], digits // 3
+        if slips >= 0 and now[MODE, slips] == STICK:
             continue
         worst = violation(c, body, pull, state, now)
         if worst < least:
@@ -233,3 +225,4 @@ def choose_modes(c, body, theta, state, now, slips):
             break
     for i in range(CORNERS):
         now[MODE, i] = now[BEST, i]
+    derive(c, body, theta, state, now, rates)
