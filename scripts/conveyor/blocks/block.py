@@ -97,24 +97,22 @@ class BlockRun:
         # The run ends at its duration, and a step ends where the last quarter begins, so that all steps are those of
         # `simulate_block`.
         moments, place = np.unique(np.append(times.ravel(), self.duration), return_inverse=True)
-        rows = pack(self.conveyor, self.start)[None]
-        arguments = rows, self.block, np.array([self.tilt]), moments[None]
+        arguments = pack(self.conveyor, self.start)[None], self.block, np.array([self.tilt]), moments
         (samples,), _ = follow(*arguments, tolerance=self.tolerance, since=(1.0 - LAST) * self.duration)
         samples = samples[place.ravel()[:-1]]
         return {name: samples[:, k].reshape(times.shape) for k, name in enumerate(block_motion.SAMPLES)}
 
 
-def follow(rows, block, tilts, times, *, tolerance, since=0.0, distance=math.inf):
+def follow(rows, block, tilts, times, *, tolerance, since, distance=math.inf):
     """What block_motion.follow fills: samples, shape (n, k, 6), and results, shape (n, 6)."""
-    n, k = times.shape
+    n, times = len(rows), np.array(times, dtype=np.float64)
     inertia = (block.length**2 + block.height**2) / 12.0 if block.inertia is None else block.inertia
-    blocks, since = np.tile([block.length, block.height, inertia], (n, 1)), np.full(n, since)
-    samples, results = np.empty((n, k, len(block_motion.SAMPLES))), np.zeros((n, block_motion.RESULTS))
+    size = float(block.length), float(block.height), float(inertia)
+    samples, results = np.empty((n, times.size, len(block_motion.SAMPLES))), np.zeros((n, block_motion.RESULTS))
     workspace = np.empty((4, STATE)), np.empty((STAGES, STATE)), np.empty((ROWS, CORNERS))
-    times = np.array(times, order="C")  # numba would compile `follow` for each other layout
-    options = tolerance, times, since, samples, distance, results, workspace
-    arguments = np.ascontiguousarray(rows), plate.count_harmonics(rows), blocks, tilts
-    cycles = (times[:, -1] * rows[:, FREQUENCY]).sum()
+    arguments = np.ascontiguousarray(rows), plate.count_harmonics(rows), size, tilts, tolerance, times
+    options = np.full(n, since), samples, distance, results, workspace
+    cycles = times[-1] * rows[:, FREQUENCY].sum()
     call_interruptibly(
         lambda: block_motion.follow(*arguments, *options), lambda: times.fill(0.0), is_long=cycles > LONG
     )
@@ -158,7 +156,7 @@ def simulate_block(
     tilt = check_number("tilt", tilt, -math.pi, math.pi, "rad")
     duration, tolerance = check_time("duration", duration), check_tolerance(tolerance)
     before = (1.0 - LAST) * duration
-    arguments = pack(conveyor, start)[None], block, np.array([tilt]), np.array([[before, duration]])
+    arguments = pack(conveyor, start)[None], block, np.array([tilt]), np.array([before, duration])
     ((last, end),), (result,) = follow(*arguments, tolerance=tolerance, since=before)
     code, largest_tilt, airtime, impact_speed, peak_force, _ = result.tolist()
     known = 1.0 if code == OK else math.nan
@@ -227,7 +225,7 @@ def block_transits(
 
     def work(begin_row, stop):
         part = slice(begin_row, stop)
-        arguments = rows[part], block, tilts[part], np.full((stop - begin_row, 1), longest)
+        arguments = rows[part], block, tilts[part], [longest]
         samples, results[part] = follow(*arguments, tolerance=tolerance, since=begin[part], distance=length)
         travelled[part] = samples[:, 0, X]
         return np.count_nonzero(results[part, block_motion.CODE] != OK)

@@ -30,6 +30,7 @@ from .corners import (
     RATE,
     SLIP,
     SPIN,
+    STATE,
     STICK,
     VX,
     VZ,
@@ -127,19 +128,6 @@ def keep_sticking(now, state):
 
 
 @compiled
-def repeats(c, body, before, between):
-    """Whether two states, one block of cycles apart, are the same motion."""
-    tolerance = min(c.tolerance, LOOSEST)
-    speed, depth = SAME * tolerance * c.scale_v, SAME * tolerance * c.scale_w * c.scale_w
-    linear = abs(between[VX] - before[VX]) <= speed and abs(between[VZ] - before[VZ]) <= speed
-    turning = (
-        abs(between[ANGLE] - before[ANGLE]) * body.reach <= depth
-        and abs(between[SPIN] - before[SPIN]) * body.reach <= speed
-    )
-    return linear and turning and abs(between[Z] - before[Z]) <= depth
-
-
-@compiled
 def begin(c, body, theta, z0, vz0, tilt, state, now, rates):
     """Fill the `state` at the beginning of a run at a phase (rad), and its rates and `now` there."""
     if math.isnan(z0):
@@ -219,15 +207,20 @@ def largest_tilt(state, after, lapse):
     return tilt
 
 
-@compiled_inline
+@compiled
 def blocks_to_skip(c, body, before, between, blocks_left, distance_left):
-    """The number of blocks of cycles that a motion which repeats itself may leave out.
+    """The number of blocks of cycles that may be left out, because the motion repeats itself.
 
     before, between : states at the beginning and at the end of a block
     blocks_left, distance_left : blocks up to the end of the run; m, up to the end of the track
     """
-    if not repeats(c, body, before, between):
-        return 0.0
+    same = SAME * min(c.tolerance, LOOSEST)
+    for place in range(X, STATE, 2):  # each position with its velocity
+        lever = body.reach if place == ANGLE else 1.0
+        has_moved = abs(between[place] - before[place]) * lever > same * c.scale_w * c.scale_w
+        is_faster = abs(between[place + 1] - before[place + 1]) * lever > same * c.scale_v
+        if (has_moved and place != X) or is_faster:
+            return 0.0
     advance = between[X] - before[X]
     # Up to one block before the end or the arrival.
     return max(math.floor(min(blocks_left, distance_left / advance if advance > 0.0 else math.inf) - 1.0), 0.0)
@@ -254,31 +247,32 @@ def go_on(c, body, theta, kind, corner, state, now, rates):
 
 
 @compiled_entry
-def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, samples, distance, results, workspace):
-    """Follow blocks until the last of their times, or until they arrive.
+def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples, distance, results, workspace):
+    """Follow equal blocks until the last of the times, or until they arrive.
 
     Parameters
     ----------
     parameters : float64, shape (n, 16), see parameters.PARAMETERS; z0 is the height of the centre above that at rest
     harmonics : as from plate.count_harmonics
-    bodies, tilts : length and height (m), moment of inertia per mass (m²), shape (n, 3); initial angles (rad)
+    size, tilts : length and height (m), moment of inertia per mass (m²); initial angles (rad), shape (n,)
     tolerance : relative error per step of the contact
-    times, since : s, ascending, shape (n, k); s from which statistics count, shape (n,)
+    times, since : s, ascending, shape (k,); s from which statistics count, shape (n,)
     samples : shape (n, k, 6), filled with the columns SAMPLES at the times (z above that at rest); on a track, at the
         last time only
     distance : m, at which a centre arrives; infinite without a track
     results : zeros of the shape (n, 6), filled with the columns above
     workspace : arrays to work in, of the shapes (4, 6), (7, 6) and (14, 4); the caller holds them
     """
-    parameters, bodies, times, samples, results = no_refcount((parameters, bodies, times, samples, results))
-    (states, stages, now) = no_refcount(workspace)
+    parameters, times, samples, results = no_refcount((parameters, times, samples, results))
+    states, stages, now = no_refcount(workspace)
     # `before` is the state one block of cycles ago.
     state, after, between, before = no_refcount((states[0], states[1], states[2], states[3]))
+    end = times[-1]
     for i in range(len(parameters)):
         c = contact.compute_constants(parameters[i], tolerance, harmonics)
         z0, vz0 = parameters[i, Z0], parameters[i, VZ0]
-        body = corners.body_of(c, bodies[i], z0, vz0)
-        end, cycles = times[i, -1], 1.0 + times[i, -1] * c.omega / TURN
+        body = corners.body_of(c, size, z0, vz0)
+        cycles = 1.0 + end * c.omega / TURN
         code, result = OK, results[i]
         theta, t = c.psi0 % TURN, 0.0
         begin(c, body, theta, z0, vz0, tilts[i], state, now, stages[0])
@@ -314,8 +308,8 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
                 result[AIRTIME] += max(min(t + lapse - since[i], lapse), 0.0)
             result[TILT] = max(result[TILT], largest_tilt(state, after, lapse))
             # Samples in this piece; at the end of the run, all that is left.
-            while sampled < times.shape[1] and (times[i, sampled] <= t + lapse or lapse >= end - t):
-                move(c, flying, state, lapse, stages, after, times[i, sampled] - t, between)
+            while sampled < times.size and (times[sampled] <= t + lapse or lapse >= end - t):
+                move(c, flying, state, lapse, stages, after, times[sampled] - t, between)
                 copy(samples[i, sampled], between)
                 samples[i, sampled, Z] -= body.half_height
                 sampled += 1
@@ -329,7 +323,6 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
                     result[AIRTIME] += skipped * (result[AIRTIME] - airtime)
                     t += skipped * block
                     furthest += advance
-                    state[X] += advance
                     after[X] += advance
                     between[X] += advance
                 copy(before, between)
@@ -341,7 +334,7 @@ def follow(parameters, harmonics, bodies, tilts, tolerance, times, since, sample
                 code = NOT_FINITE
                 break
             # Ctrl-C sets the times to zero.
-            if t >= times[i, -1] or not math.isnan(result[ARRIVAL]):
+            if t >= times[-1] or not math.isnan(result[ARRIVAL]):
                 break
             if not flying:
                 if t >= since[i]:
