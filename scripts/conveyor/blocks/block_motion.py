@@ -284,8 +284,9 @@ def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples,
         due = block if distance < math.inf else math.inf
         length = 0.01 * LONGEST * TURN / c.omega
         steps = events = sampled = 0
+        flying = now[MODE].max() == FREE
         while True:
-            flying, kind, corner = now[MODE].max() == FREE, TOUCH, -1
+            kind, corner = TOUCH, -1
             if flying:
                 lapse = next_impact(c, body, theta, state, end - t, after, now)
             else:
@@ -348,6 +349,7 @@ def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples,
                     code = TOO_MANY_EVENTS
                     break
             speed = go_on(c, body, theta, kind, corner, state, now, stages[0])
+            flying = now[MODE].max() == FREE
             if t >= since[i]:
                 result[IMPACT_SPEED] = max(result[IMPACT_SPEED], speed)
                 # A damper pushes most as a corner touches the plate.
