@@ -11,33 +11,14 @@ times as long.
 
 import math
 
-from ..solver import contact, plate
+from ..solver import contact
 from ..solver.arrivals import furthest_way, time_of_passage
 from ..solver.flight import time_of_fall
 from ..solver.jit import compiled, compiled_entry, compiled_inline, copy, no_refcount
 from ..solver.model import VZ0, Z0
 from ..solver.status import IMPACT_LOST, NOT_FINITE, OK, TOO_MANY_EVENTS, TOO_STIFF
 from . import corners
-from .corners import (
-    ANGLE,
-    CORNERS,
-    FORCE,
-    FORWARD,
-    FREE,
-    GAP,
-    MODE,
-    PULLED,
-    RATE,
-    SLIP,
-    SPIN,
-    STATE,
-    STICK,
-    VX,
-    VZ,
-    WHOLE,
-    X,
-    Z,
-)
+from .corners import ANGLE, CORNERS, FORCE, FREE, GAP, MODE, PULLED, RATE, SLIP, SPIN, STATE, STICK, VX, VZ, X, Z
 from .steps import NONE, PULL, STAGES, TOUCH, first_event, interpolate, take_step
 
 SAMPLES = ("x", "vx", "z", "vz", "angle", "spin")
@@ -81,8 +62,9 @@ def next_impact(c, body, theta, state, limit, after, now):
         fly(state, c.gravity, c.downhill, tau, after)
         # The whole block lies within its reach around the centre.
         clear = after[Z] - body.reach - c.bounds.height
-        advance = time_of_fall(after[VZ], clear, c.gravity) if clear > margin else 0.0
-        if clear <= margin or tau == limit:
+        if clear > margin and tau < limit:
+            advance = time_of_fall(after[VZ], clear, c.gravity)
+        else:
             corners.locate(c, body, theta + c.omega * tau, after, now)
             if tau == limit:
                 return tau
@@ -97,61 +79,6 @@ def next_impact(c, body, theta, state, limit, after, now):
                 advance = min(advance, time_of_fall(rate, gap + BELOW * margin, bound))
         tau = min(tau + advance, limit)
     return math.nan
-
-
-@compiled
-def touch(now, margin):
-    """Close the contacts of all corners that are at the plate and approach it, open those that leave it.
-
-    Returns the largest speed of approach of a new contact (m/s).
-    """
-    speed = 0.0
-    for i in range(CORNERS):
-        if now[MODE, i] == FREE and now[GAP, i] <= margin and now[RATE, i] < 0.0:
-            now[MODE, i], now[PULLED, i] = FORWARD, 0.0
-            speed = max(speed, -now[RATE, i])
-        elif now[MODE, i] != FREE and now[GAP, i] >= (-margin if now[RATE, i] > 0.0 else margin):
-            now[MODE, i] = FREE
-    return speed
-
-
-@compiled
-def keep_sticking(now, state):
-    """Remove the error of a step in the slip velocity of corners that stick."""
-    total, count = 0.0, 0
-    for i in range(CORNERS):
-        if now[MODE, i] == STICK:
-            total += now[SLIP, i]
-            count += 1
-    if count > 0:
-        state[VX] += total / count
-
-
-@compiled
-def begin(c, body, theta, z0, vz0, tilt, state, now, rates):
-    """Fill the `state` at the beginning of a run at a phase (rad), and its rates and `now` there."""
-    if math.isnan(z0):
-        z0 = plate.height(c, *plate.sine_and_cosine(theta))
-    state[X], state[Z], state[ANGLE] = 0.0, z0 + body.half_height, tilt
-    state[VX], state[VZ], state[SPIN] = 0.0, vz0, 0.0
-    now[:] = 0.0
-    corners.locate(c, body, theta, state, now)
-    for i in range(CORNERS):
-        now[MODE, i] = FORWARD if now[GAP, i] <= 0.0 else FREE
-    corners.push(c, now)
-    for i in range(CORNERS):
-        now[PULLED, i] = now[WHOLE, i] < 0.0
-    corners.choose_modes(c, body, theta, state, -1, now, rates)
-
-
-@compiled_inline
-def longest_step(c):
-    """The duration (s) of the longest step of the contact."""
-    step = LONGEST * TURN / c.omega
-    if c.waves is None:
-        return step
-    # The mean order of the harmonics along the track, weighted with their accelerations.
-    return step * c.bounds.pull / c.bounds.pull_rate
 
 
 @compiled_inline
@@ -169,7 +96,7 @@ def press(c, body, theta, state, limit, length, stages, after, between, now):
     length : of the next step (s)
     """
     while True:
-        lapse = min(length, longest_step(c), limit)
+        lapse = min(length, limit)
         error = take_step(c, body, theta, state, lapse, stages, after, now)
         if error <= 1.0:
             break
@@ -235,7 +162,7 @@ def go_on(c, body, theta, kind, corner, state, now, rates):
     speed, slips = 0.0, -1
     if kind == TOUCH:
         corners.locate(c, body, theta, state, now)
-        speed = touch(now, body.margins.gap)
+        speed = corners.touch(now, body.margins.gap)
     elif kind == PULL:
         now[PULLED, corner] = 1.0 - now[PULLED, corner]
     elif now[MODE, corner] == STICK:
@@ -275,13 +202,15 @@ def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples,
         cycles = 1.0 + end * c.omega / TURN
         code, result = OK, results[i]
         theta, t = c.psi0 % TURN, 0.0
-        begin(c, body, theta, z0, vz0, tilts[i], state, now, stages[0])
+        corners.begin(c, body, theta, z0, vz0, tilts[i], state, now, stages[0])
         result[TILT], result[ARRIVAL] = abs(tilts[i]), math.nan
         # On a track: the length of a block of cycles, and the time at which it ends; the furthest position; the time
         # without contact before the block.
         before[:] = math.inf
         block, furthest, airtime = CYCLES * TURN / c.omega, 0.0, 0.0
         due = block if distance < math.inf else math.inf
+        # The order of harmonics is their mean along the track, weighted with their accelerations.
+        longest = LONGEST * TURN / c.omega * c.bounds.pull / c.bounds.pull_rate
         length = 0.01 * LONGEST * TURN / c.omega
         steps = events = sampled = 0
         flying = now[MODE].max() == FREE
@@ -291,7 +220,7 @@ def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples,
                 lapse = next_impact(c, body, theta, state, end - t, after, now)
             else:
                 # A step ends where statistics begin, so that they include the force there.
-                limit = (since[i] if t < since[i] else end) - t
+                limit = min((since[i] if t < since[i] else end) - t, longest)
                 lapse, kind, corner, length = press(c, body, theta, state, limit, length, stages, after, between, now)
                 steps += 1
             if math.isnan(lapse) or steps > cycles * MAX_STEPS:
@@ -340,7 +269,7 @@ def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples,
             if not flying:
                 if t >= since[i]:
                     result[PEAK_FORCE] = max(result[PEAK_FORCE], now[FORCE].sum())
-                keep_sticking(now, state)
+                corners.keep_sticking(now, state)
                 if kind == NONE:
                     copy(stages[0], stages[STAGES - 1])
                     continue

@@ -226,3 +226,48 @@ def choose_modes(c, body, theta, state, slips, now, rates):
     for i in range(CORNERS):
         now[MODE, i] = now[BEST, i]
     derive(c, body, theta, state, now, rates)
+
+
+@compiled
+def begin(c, body, theta, z0, vz0, tilt, state, now, rates):
+    """Fill the `state` at the beginning of a run at a phase (rad), and its rates and `now` there."""
+    if math.isnan(z0):
+        z0 = plate.height(c, *plate.sine_and_cosine(theta))
+    state[X], state[Z], state[ANGLE] = 0.0, z0 + body.half_height, tilt
+    state[VX], state[VZ], state[SPIN] = 0.0, vz0, 0.0
+    now[:] = 0.0
+    locate(c, body, theta, state, now)
+    for i in range(CORNERS):
+        now[MODE, i] = FORWARD if now[GAP, i] <= 0.0 else FREE
+    push(c, now)
+    for i in range(CORNERS):
+        now[PULLED, i] = now[WHOLE, i] < 0.0
+    choose_modes(c, body, theta, state, -1, now, rates)
+
+
+@compiled
+def touch(now, margin):
+    """Close the contacts of all corners that are at the plate and approach it, open those that leave it.
+
+    Returns the largest speed of approach of a new contact (m/s).
+    """
+    speed = 0.0
+    for i in range(CORNERS):
+        if now[MODE, i] == FREE and now[GAP, i] <= margin and now[RATE, i] < 0.0:
+            now[MODE, i], now[PULLED, i] = FORWARD, 0.0
+            speed = max(speed, -now[RATE, i])
+        elif now[MODE, i] != FREE and now[GAP, i] >= (-margin if now[RATE, i] > 0.0 else margin):
+            now[MODE, i] = FREE
+    return speed
+
+
+@compiled
+def keep_sticking(now, state):
+    """Remove the error of a step in the slip velocity of corners that stick."""
+    total, count = 0.0, 0
+    for i in range(CORNERS):
+        if now[MODE, i] == STICK:
+            total += now[SLIP, i]
+            count += 1
+    if count > 0:
+        state[VX] += total / count
