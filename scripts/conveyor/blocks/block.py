@@ -96,11 +96,10 @@ class BlockRun:
         times = check_array("times", times, 0.0, self.duration, "s", least=0)
         # The run ends at its duration, and a step ends where the last quarter begins, so that all steps are those of
         # `simulate_block`.
-        moments, place = np.unique(np.append(times.ravel(), self.duration), return_inverse=True)
+        moments, place = np.unique(np.append(times, self.duration), return_inverse=True)
         arguments = pack(self.conveyor, self.start)[None], self.block, np.array([self.tilt]), moments
         (samples,), _ = follow(*arguments, tolerance=self.tolerance, since=(1.0 - LAST) * self.duration)
-        samples = samples[place.ravel()[:-1]]
-        return {name: samples[:, k].reshape(times.shape) for k, name in enumerate(block_motion.SAMPLES)}
+        return {name: samples[place[:-1], k].reshape(times.shape) for k, name in enumerate(block_motion.SAMPLES)}
 
 
 def follow(rows, block, tilts, times, *, tolerance, since, distance=math.inf):

@@ -16,7 +16,7 @@ from ..solver.arrivals import furthest_way, time_of_passage
 from ..solver.flight import time_of_fall
 from ..solver.jit import compiled, compiled_entry, compiled_inline, copy, no_refcount
 from ..solver.model import VZ0, Z0
-from ..solver.status import IMPACT_LOST, NOT_FINITE, OK, TOO_MANY_EVENTS, TOO_STIFF
+from ..solver.status import IMPACT_LOST, NOT_FINITE, TOO_MANY_EVENTS, TOO_STIFF
 from . import corners
 from .corners import ANGLE, CORNERS, FORCE, FREE, GAP, MODE, PULLED, RATE, SLIP, SPIN, STATE, STICK, VX, VZ, X, Z
 from .steps import NONE, PULL, STAGES, TOUCH, first_event, interpolate, take_step
@@ -42,11 +42,11 @@ SHORTEST = 1e-15  # of an excitation cycle: a step that needs to be shorter has 
 
 
 @compiled
-def fly(state, gravity, downhill, tau, after):
+def fly(c, state, tau, after):
     """Fill the state `after` a flight of `tau` (s)."""
-    after[X] = state[X] + (state[VX] - 0.5 * downhill * tau) * tau
-    after[Z] = state[Z] + (state[VZ] - 0.5 * gravity * tau) * tau
-    after[VX], after[VZ] = state[VX] - downhill * tau, state[VZ] - gravity * tau
+    after[X] = state[X] + (state[VX] - 0.5 * c.downhill * tau) * tau
+    after[Z] = state[Z] + (state[VZ] - 0.5 * c.gravity * tau) * tau
+    after[VX], after[VZ] = state[VX] - c.downhill * tau, state[VZ] - c.gravity * tau
     after[ANGLE], after[SPIN] = state[ANGLE] + state[SPIN] * tau, state[SPIN]
 
 
@@ -59,7 +59,7 @@ def next_impact(c, body, theta, state, limit, after, now):
     margin, bound = body.margins.gap, c.gravity + c.bounds.lift + body.reach * state[SPIN] * state[SPIN]
     tau = 0.0
     for _ in range(MAX_SEARCH):
-        fly(state, c.gravity, c.downhill, tau, after)
+        fly(c, state, tau, after)
         # The whole block lies within its reach around the centre.
         clear = after[Z] - body.reach - c.bounds.height
         if clear > margin and tau < limit:
@@ -82,7 +82,7 @@ def next_impact(c, body, theta, state, limit, after, now):
 
 
 @compiled_inline
-def press(c, body, theta, state, limit, length, stages, after, between, now):
+def step_in_contact(c, body, theta, state, limit, length, stages, after, between, now):
     """A step of the contact from a phase (rad), which ends at its first event and takes at most `limit` (s).
 
     Fills the state `after` it, its stages, and `now` at its end.
@@ -119,7 +119,7 @@ def press(c, body, theta, state, limit, length, stages, after, between, now):
 def move(c, flying, state, lapse, stages, after, tau, between):
     """Fill the state `between`, a time `tau` (s) after the beginning of a flight or of a step of the contact."""
     if flying:
-        fly(state, c.gravity, c.downhill, tau, between)
+        fly(c, state, tau, between)
     else:
         interpolate(state, lapse, stages, after, min(tau / lapse, 1.0) if lapse > 0.0 else 1.0, between)
 
@@ -154,8 +154,8 @@ def blocks_to_skip(c, body, before, between, blocks_left, distance_left):
 
 
 @compiled_inline
-def go_on(c, body, theta, kind, corner, state, now, rates):
-    """Fill the modes of the corners that follow an event, and the rates; `state` and `now` are those at this moment.
+def apply_event(c, body, theta, kind, corner, state, now, rates):
+    """Fill the modes of the corners after an event, and the rates; `state` and `now` are those at this moment.
 
     Returns the largest speed of approach of a new contact (m/s).
     """
@@ -200,8 +200,7 @@ def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples,
         z0, vz0 = parameters[i, Z0], parameters[i, VZ0]
         body = corners.body_of(c, size, z0, vz0)
         cycles = 1.0 + end * c.omega / TURN
-        code, result = OK, results[i]
-        theta, t = c.psi0 % TURN, 0.0
+        result, theta, t = results[i], c.psi0 % TURN, 0.0
         corners.begin(c, body, theta, z0, vz0, tilts[i], state, now, stages[0])
         result[TILT], result[ARRIVAL] = abs(tilts[i]), math.nan
         # On a track: the length of a block of cycles, and the time at which it ends; the furthest position; the time
@@ -221,10 +220,12 @@ def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples,
             else:
                 # A step ends where statistics begin, so that they include the force there.
                 limit = min((since[i] if t < since[i] else end) - t, longest)
-                lapse, kind, corner, length = press(c, body, theta, state, limit, length, stages, after, between, now)
+                lapse, kind, corner, length = step_in_contact(
+                    c, body, theta, state, limit, length, stages, after, between, now
+                )
                 steps += 1
             if math.isnan(lapse) or steps > cycles * MAX_STEPS:
-                code = IMPACT_LOST if flying else TOO_STIFF
+                result[CODE] = IMPACT_LOST if flying else TOO_STIFF
                 break
             course = state[VX], c.downhill if flying else 0.0, lapse, after[X] - state[X]
             furthest = max(furthest, after[X], state[X] + furthest_way(*course))
@@ -233,7 +234,7 @@ def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples,
                 result[ARRIVAL] = t + tau
                 if flying:  # the run ends there
                     lapse = tau
-                    fly(state, c.gravity, c.downhill, lapse, after)
+                    fly(c, state, lapse, after)
             if flying:
                 result[AIRTIME] += max(min(t + lapse - since[i], lapse), 0.0)
             result[TILT] = max(result[TILT], largest_tilt(state, after, lapse))
@@ -261,7 +262,7 @@ def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples,
             theta = (theta + c.omega * lapse) % TURN
             copy(state, after)
             if not math.isfinite(state.sum()):
-                code = NOT_FINITE
+                result[CODE] = NOT_FINITE
                 break
             # Ctrl-C sets the times to zero.
             if t >= times[-1] or not math.isnan(result[ARRIVAL]):
@@ -275,13 +276,12 @@ def follow(parameters, harmonics, size, tilts, tolerance, times, since, samples,
                     continue
                 events += 1
                 if events > cycles * MAX_EVENTS:
-                    code = TOO_MANY_EVENTS
+                    result[CODE] = TOO_MANY_EVENTS
                     break
-            speed = go_on(c, body, theta, kind, corner, state, now, stages[0])
+            speed = apply_event(c, body, theta, kind, corner, state, now, stages[0])
             flying = now[MODE].max() == FREE
             if t >= since[i]:
                 result[IMPACT_SPEED] = max(result[IMPACT_SPEED], speed)
                 # A damper pushes most as a corner touches the plate.
                 result[PEAK_FORCE] = max(result[PEAK_FORCE], now[FORCE].sum())
-        result[CODE] = code
         samples[i, sampled:] = math.nan

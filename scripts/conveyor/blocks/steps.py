@@ -126,12 +126,12 @@ def first_event(c, body, theta, state, length, stages, after, now, between):
         kind, i = place // CORNERS, place % CORNERS
         place += 1
         half = 0.5 * margin_of(body.margins, now, kind, i)
-        if (kind == first_kind and i == corner) or guard(c, now, kind, i) >= -2.0 * half:
+        at_end = guard(c, now, kind, i)
+        if (kind == first_kind and i == corner) or at_end >= -2.0 * half:
             continue
         # The event is where the guard passes half of its margin, or the whole one if it begins beyond half of it: a
         # corner that has just left the plate may still be that far below it. A regula falsi (Illinois), whose interval
         # shrinks from both ends.
-        at_end = guard(c, now, kind, i)
         corners.derive(c, body, theta, state, now, rates)
         at_begin = guard(c, now, kind, i)
         level = half if at_begin > -half else 2.0 * half
