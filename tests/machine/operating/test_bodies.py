@@ -97,8 +97,9 @@ def test_tables_of_shapes():
 def test_the_difference_of_two_medians_has_the_errors_of_both():
     blocks = {"velocity_50": 0.11, "velocity_50_stderr": 0.003}
     points = {"velocity_50": 0.1, "velocity_50_stderr": 0.004}
-    assert bodies.relative_difference(blocks, points) == pytest.approx((0.1, math.hypot(0.03, 1.1 * 0.04)))
-    assert np.isnan(bodies.relative_difference(blocks, points | {"velocity_50": 0.0})).all()
+    expected = {"difference": 0.1, "difference_stderr": math.hypot(0.03, 1.1 * 0.04)}
+    assert bodies.relative_difference(blocks, points) == pytest.approx(expected)
+    assert np.isnan([*bodies.relative_difference(blocks, points | {"velocity_50": 0.0}).values()]).all()
 
 
 def test_a_part_length_that_contradicts_the_body_is_refused():

@@ -4,17 +4,7 @@ import pandas as pd
 
 from conveyor.parameters import length_scale
 from conveyor_pipeline.common.templates import format_number
-from conveyor_pipeline.machine.operating.body_limits import (
-    LONGEST,
-    MOTIONS,
-    OF_A_CELL,
-    PARTS,
-    POINTS,
-    RIGHT,
-    STATEMENT,
-    TILT,
-    TRACK,
-)
+from conveyor_pipeline.machine.operating import body_limits as limits
 from conveyor_pipeline.machine.operating.populations import ENDS
 
 
@@ -26,34 +16,27 @@ def verdict(difference: float, stderr: float, limit: float) -> str:
 
 
 def numbers(*, bodies: pd.DataFrame, shapes: pd.DataFrame) -> dict:
-    settings = bodies.attrs
-    model, effort = settings["model"], settings["effort"]
-    size = shapes.difference.abs()
+    model, effort = bodies.attrs["model"], bodies.attrs["effort"]
+    groups = {motion: shapes[shapes.motion == motion] for motion in limits.MOTIONS}
     statements = {}
-    for motion, limit in STATEMENT.items():
-        rows = shapes[shapes.motion == motion]
+    for motion, limit in limits.STATEMENT.items():
+        sizes = groups[motion].difference.abs()
         statements[motion] = {"limit": f"{100.0 * limit:g}", "difference": None}
-        if rows.difference.notna().any():
-            largest = rows.loc[rows.difference.abs().idxmax()]
-            statements[motion] |= {
-                "difference": 100.0 * abs(largest.difference),
-                "stderr": 100.0 * largest.difference_stderr,
-                "verdict": verdict(abs(largest.difference), largest.difference_stderr, limit),
-            }
-    errors = [100.0 * shapes.difference_stderr[shapes.motion == motion].median() for motion in MOTIONS]
-    right = [100.0 * (size[shapes.motion == motion] <= RIGHT).mean() for motion in MOTIONS]
-    amplitudes = [shapes.acceleration[shapes.motion == motion].iloc[0] for motion in MOTIONS]
+        if sizes.notna().any():
+            difference, stderr = sizes.max(), groups[motion].difference_stderr[sizes.idxmax()]
+            statements[motion] |= {"difference": 100.0 * difference, "stderr": 100.0 * stderr}
+            statements[motion]["verdict"] = verdict(difference, stderr, limit)
     return {
-        "parts": max(4, round(effort * PARTS)),
-        "points": max(4, round(effort * POINTS)),
-        "cells": [max(4, round(effort * OF_A_CELL[motion])) for motion in MOTIONS],
-        "tilt": TILT,
+        "parts": max(4, round(effort * limits.PARTS)),
+        "points": max(4, round(effort * limits.POINTS)),
+        "cells": [max(4, round(effort * limits.OF_A_CELL[motion])) for motion in limits.MOTIONS],
+        "tilt": limits.TILT,
         "ends": ENDS,
-        "track": TRACK * length_scale(model),
-        "longest": LONGEST / model["frequency"],
-        "right": f"{100.0 * RIGHT:g}",
-        "amplitudes": [format_number(amplitude) for amplitude in amplitudes],
-        "enough": [f"{share:.0f}" for share in right],
-        "errors": [f"{error:.2g}" for error in errors],
+        "track": limits.TRACK * length_scale(model),
+        "longest": limits.LONGEST / model["frequency"],
+        "right": f"{100.0 * limits.RIGHT:g}",
+        "amplitudes": [format_number(rows.acceleration.iloc[0]) for rows in groups.values()],
+        "enough": [f"{100.0 * (rows.difference.abs() <= limits.RIGHT).mean():.0f}" for rows in groups.values()],
+        "errors": [f"{100.0 * rows.difference_stderr.median():.2g}" for rows in groups.values()],
         **statements,
     }

@@ -13,15 +13,15 @@ COLOURS = ("0.25", "#0072B2", "#D55E00", "#009E73")
 
 def draw_landing(axes: Axes, landing: pd.DataFrame) -> None:
     """The lower edge of the block above the plate at each time, side by side; heights are exaggerated."""
-    lowest = landing.plate.min()
-    for place, row in enumerate(landing.itertuples()):
-        ends = np.array([place + 0.12, place + 0.88])
-        axes.plot([place, place + 1.0], 1e6 * (np.array([row.plate] * 2) - lowest), color="0.6", linewidth=1.0)
-        edge = 1e6 * (np.array([row.rear, row.front]) - lowest)
-        axes.plot(ends, edge, color=COLOURS[1], linewidth=1.6)
-        for x, z in zip(ends, edge, strict=True):
+    heights = 1e6 * (landing[["rear", "front", "plate"]] - landing.plate.min())  # µm
+    for place, row in enumerate(heights.itertuples()):
+        rear, front = place + 0.12, place + 0.88
+        axes.plot([place, place + 1.0], [row.plate, row.plate], color="0.6", linewidth=1.0)
+        axes.plot([rear, front], [row.rear, row.front], color=COLOURS[1], linewidth=1.6)
+        for x, z in ((rear, row.rear), (front, row.front)):
             axes.plot([x, x], [z, z + 60.0], color=COLOURS[1], linewidth=0.8)
-        axes.text(place + 0.5, -0.02, f"{row.time:+.2f}", transform=axes.get_xaxis_transform(), ha="center", va="top")
+        time = f"{landing.time[row.Index]:+.2f}"
+        axes.text(place + 0.5, -0.02, time, transform=axes.get_xaxis_transform(), ha="center", va="top")
     axes.set_xticks([])
     axes.set_xlabel("time in cycles after the first contact", labelpad=12.0)
     axes.set_ylabel("height in µm")
@@ -32,15 +32,11 @@ def draw_map(axes: Axes, shapes: pd.DataFrame, motion: str) -> None:
     rows = shapes[shapes.motion == motion]
     for row in rows.itertuples():
         right = abs(row.difference) <= RIGHT
-        colour = COLOURS[0] if right else COLOURS[2]
-        axes.plot(
-            row.length, row.height, "s", color=colour, markerfacecolor=colour if right else "none", markersize=17.0
-        )
+        place, colour, fill = (row.length, row.height), COLOURS[0 if right else 2], "full" if right else "none"
+        axes.plot(*place, "s", color=colour, fillstyle=fill, markersize=17.0)
         if np.isfinite(row.difference):
             text = f"{100.0 * row.difference:+.0f}" if row.difference < 1.0 else f"×{1.0 + row.difference:.2g}"
-            axes.text(
-                row.length, row.height, text, ha="center", va="center", color="white" if right else "black", fontsize=7
-            )
+            axes.text(*place, text, ha="center", va="center", color="white" if right else "black", fontsize=7)
     axes.set(xscale="log", yscale="log", xlabel=r"length in $g\,\cos\alpha/\omega^2$")
     first = rows.iloc[0]
     axes.set_title(f"{first.acceleration:.3g} m/s²: {100.0 * first.points_ride:.0f} % of points ride")
@@ -54,11 +50,9 @@ def plot(*, bodies: pd.DataFrame, shapes: pd.DataFrame, landing: pd.DataFrame) -
     land = above.subplots()
     draw_landing(land, landing)
     fast, ride, tilt = middle.subplots(1, 3, width_ratios=(1.6, 1.0, 1.0))
-    groups = bodies.fillna({"length": -1.0, "height": -1.0}).groupby(["length", "height"], sort=False)
-    for colour, (_, index) in zip(COLOURS, groups.groups.items(), strict=False):
-        rows = bodies.loc[index]
-        shape = rows.iloc[0]
-        name = "point" if np.isnan(shape.length) else f"length {shape.length:.3g}, height/length {shape.height:g}"
+    shapes_of_curves = bodies.groupby(["length", "height"], sort=False, dropna=False)
+    for colour, ((length, height), rows) in zip(COLOURS, shapes_of_curves, strict=False):
+        name = "point" if np.isnan(length) else f"length {length:.3g}, height/length {height:g}"
         low, median, high = (100.0 * rows[column] for column in ("velocity_05", "velocity_50", "velocity_95"))
         fast.plot(rows.acceleration, median, color=colour, label=name)
         fast.fill_between(rows.acceleration, low, high, color=colour, alpha=0.15, linewidth=0.0)

@@ -10,15 +10,7 @@ import math
 import numpy as np
 import pandas as pd
 
-from conveyor import (
-    Block,
-    Start,
-    conveyor_and_start,
-    length_and_speed_units,
-    plate_motion,
-    simulate_block,
-    throw_number,
-)
+from conveyor import Block, length_and_speed_units, plate_motion, simulate_block, throw_number
 from conveyor_pipeline.common import fields
 from conveyor_pipeline.machine.operating import body_limits
 from conveyor_pipeline.machine.operating.body_limits import MOTIONS, TILT
@@ -104,36 +96,32 @@ def measure(rows: np.ndarray, shape: tuple[float, float] | None, settings: dict,
     return measures
 
 
-def relative_difference(blocks: dict, points: dict) -> tuple[float, float]:
+def relative_difference(blocks: dict, points: dict) -> dict[str, float]:
     """The relative difference between the medians of two populations, and its standard error; NaN if points stay."""
-    median, reference = blocks["velocity_50"], points["velocity_50"]
-    if not reference:
-        return np.nan, np.nan
+    median, reference = blocks["velocity_50"], points["velocity_50"] or np.nan
     error = math.hypot(blocks["velocity_50_stderr"], median / reference * points["velocity_50_stderr"])
-    return median / reference - 1.0, error / abs(reference)
+    return {"difference": median / reference - 1.0, "difference_stderr": error / abs(reference)}
 
 
-def landing_of(row: np.ndarray, shape: tuple[float, float], cycles: np.ndarray) -> pd.DataFrame:
-    """Where the lower corners of a block are at times (excitation cycles) after the first of them touches the plate.
-
-    row : a conveyor and an initial condition above the plate
-    """
-    conveyor, start = conveyor_and_start(row)
+def trace_landing(conveyor: np.ndarray, shape: tuple[float, float]) -> pd.DataFrame:
+    """Where the lower corners of a block of a shape are at OUTLINES; the row has its height above the plate, too."""
     unit, _ = length_and_speed_units(conveyor)
-    block = Block(shape[0] * unit, shape[0] * shape[1] * unit)
-    run = simulate_block(conveyor, block, Start(start.z), tilt=TILT, duration=3.0 / conveyor.frequency)
+    length, height, frequency = shape[0] * unit, shape[0] * shape[1] * unit, conveyor["frequency"]
+    run = simulate_block(conveyor, Block(length, height), tilt=TILT, duration=3.0 / frequency)
 
-    def corners(times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    def outlines(times: np.ndarray) -> pd.DataFrame:
         samples = run.sample(times)
-        centre = samples["z"] + 0.5 * block.height * (1.0 - np.cos(samples["angle"]))
-        lever = 0.5 * block.length * np.sin(samples["angle"])
-        return centre - lever, centre + lever, plate_motion(conveyor, times)["z"], samples["angle"]
+        centre = samples["z"] + 0.5 * height * (1.0 - np.cos(samples["angle"]))
+        lever = 0.5 * length * np.sin(samples["angle"])
+        ends = {"rear": centre - lever, "front": centre + lever}
+        return pd.DataFrame(ends | {"plate": plate_motion(run.conveyor, times)["z"], "angle": samples["angle"]})
 
     times = np.linspace(0.0, run.duration / 2.0, 3001)
-    rear, front, plate, _ = corners(times)
-    touched = times[np.argmax(np.minimum(rear, front) <= plate)]
-    rear, front, plate, angle = corners(np.clip(touched + cycles / conveyor.frequency, 0.0, run.duration))
-    return pd.DataFrame({"time": cycles, "rear": rear, "front": front, "plate": plate, "angle": angle})
+    before = outlines(times)
+    touched = times[np.argmax(before[["rear", "front"]].min(axis=1) <= before.plate)]
+    table = outlines(np.clip(touched + OUTLINES / frequency, 0.0, run.duration))
+    table.insert(0, "time", OUTLINES)
+    return table
 
 
 def logarithmic(ends: tuple[float, float], count: int) -> list[float]:
@@ -160,9 +148,8 @@ def make(settings: dict, *, progress: str | None = None) -> dict[str, pd.DataFra
         rows = population(np.array([throw]) / unit, of_cells, IDENTICAL)
         for shape in itertools.product(lengths, heights):
             (blocks,) = measure(rows, shape, of_cells, progress)
-            compared = dict(zip(("difference", "difference_stderr"), relative_difference(blocks, points), strict=True))
+            compared = relative_difference(blocks, points)
             shapes.append({"motion": motion, "points_ride": points["rides"], **blocks, **compared})
     (first,) = population(np.array([MOTIONS["coexist"]]) / unit, {**settings, "starts": 1}, IDENTICAL)
-    first["psi0"], first["z0"] = LANDING_PHASE, 3.0 * length_and_speed_units(first)[0]
-    landing = landing_of(first, SHAPES[0], OUTLINES)
-    return {"bodies": table, "body_shapes": pd.DataFrame(shapes), "landing": landing}
+    first["psi0"], first["vz0"], first["z0"] = LANDING_PHASE, 0.0, 3.0 * length_and_speed_units(first)[0]
+    return {"bodies": table, "body_shapes": pd.DataFrame(shapes), "landing": trace_landing(first, SHAPES[0])}
