@@ -1,4 +1,4 @@
-"""The corners of a block: where they are, their contact forces, and friction in slip and in stick.
+"""The corners of a block: where they are, their modes, their contact forces, and friction in slip and in stick.
 
 A corner has half of the contact's stiffness and of its damping. With the offset (o_x, o_z) of a corner from the centre,
 its contact force N and friction f, both per mass of the block, and the moment of inertia per mass, I/m,
@@ -18,15 +18,15 @@ import math
 from collections import namedtuple
 
 from ..solver import contact_law, friction, model, plate
-from ..solver.jit import compiled, compiled_inline
+from ..solver.jit import compiled, compiled_inline, copy
 
 X, VX, Z, VZ, ANGLE, SPIN = range(6)
 STATE = 6
 CORNERS = 4
 # Rows of `now`: offset from the centre (m), gap (m) and its rate (m/s), slip velocity (m/s); contact force and friction
 # per mass (m/s²); one of the modes below; the contact force that spring and damper would have, and whether it is
-# negative, which matters for `frictionless` and `clip`; whether a corner in contact has no slip velocity, and its best
-# mode so far, in `choose_modes`; the weight and the rate w and b of `hold`.
+# negative, which matters for `frictionless` and `clip`; whether it touches the plate without a slip velocity, and its
+# best mode so far, in `choose_modes`; the weight and the rate w and b of `hold`.
 OX, OZ, GAP, RATE, SLIP, FORCE, RUB, MODE, WHOLE, PULLED, RESTS, BEST, WEIGHT, NEED = range(14)
 ROWS = 14
 # What a corner does. With one of the last two it slips, and friction pushes it forward or backward.
@@ -177,8 +177,6 @@ def violation(c, body, pull, state, now):
     moment = rub(c, body, pull, state, now)
     worst = 0.0
     for i in range(CORNERS):
-        if now[MODE, i] == FREE:
-            continue
         rate = pull + state[SPIN] * state[SPIN] * now[OX, i] + now[OZ, i] * moment / body.inertia
         for j in range(CORNERS):
             rate -= (1.0 + now[OZ, i] * now[OZ, j] / body.inertia) * now[RUB, j]
@@ -201,30 +199,27 @@ def choose_modes(c, body, theta, state, slips, now, rates):
     """
     pull = locate(c, body, theta, state, now)
     push(c, now)
-    combinations = 1
+    has_friction = c.friction + c.static_friction > 0.0
     for i in range(CORNERS):
+        now[RESTS, i] = has_friction and now[MODE, i] != FREE and abs(now[SLIP, i]) <= body.margins.slip
         if now[MODE, i] != FREE:
             now[MODE, i] = FORWARD if now[SLIP, i] > 0.0 else BACKWARD
-            now[RESTS, i] = abs(now[SLIP, i]) <= body.margins.slip and c.friction + c.static_friction > 0.0
-            combinations *= 3 if now[RESTS, i] else 1
     least = math.inf
     ways = (STICK, FORWARD, BACKWARD) if pull >= 0.0 else (STICK, BACKWARD, FORWARD)
-    for combination in range(combinations):
+    for combination in range(3 ** int(now[RESTS].sum())):
         digits = combination
         for i in range(CORNERS):
-            if now[MODE, i] != FREE and now[RESTS, i]:
+            if now[RESTS, i]:
                 now[MODE, i], digits = ways[digits % 3], digits // 3
         if slips >= 0 and now[MODE, slips] == STICK:
             continue
         worst = violation(c, body, pull, state, now)
         if worst < least:
             least = worst
-            for i in range(CORNERS):
-                now[BEST, i] = now[MODE, i]
+            copy(now[BEST], now[MODE])
         if least <= 0.0:
             break
-    for i in range(CORNERS):
-        now[MODE, i] = now[BEST, i]
+    copy(now[MODE], now[BEST])
     derive(c, body, theta, state, now, rates)
 
 
