@@ -107,9 +107,7 @@ def step_in_contact(c, body, theta, state, limit, length, stages, after, between
     longer = lapse * min(SAFETY * max(error, 1e-10) ** -0.2, MOST)
     length = longer if lapse >= length else max(longer, length)
     share, kind, corner = first_event(c, body, theta, state, lapse, stages, after, now, between)
-    if kind == NONE:
-        corners.derive(c, body, theta + c.omega * lapse, after, now, stages[STAGES - 1])
-    else:
+    if kind != NONE:
         lapse *= share
         take_step(c, body, theta, state, lapse, stages, after, now)
     return lapse, kind, corner, length

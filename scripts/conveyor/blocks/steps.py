@@ -117,9 +117,8 @@ def margin_of(margins, now, kind, i):
 def first_event(c, body, theta, state, length, stages, after, now, between):
     """Share of a step at which its first event is, the kind of the event and its corner; the share is 1 if none is.
 
-    now : as `take_step` leaves it; between : an array of the shape of a state
+    now : as `take_step` leaves it, and unchanged if there is no event; between : an array of the shape of a state
     """
-    rates = np.empty(STATE)
     share, first_kind, corner = 1.0, NONE, -1
     place = found = 0
     while place < CORNERS * NONE:
@@ -129,6 +128,7 @@ def first_event(c, body, theta, state, length, stages, after, now, between):
         at_end = guard(c, now, kind, i)
         if (kind == first_kind and i == corner) or at_end >= -2.0 * half:
             continue
+        rates = np.empty(STATE)
         # The event is where the guard passes half of its margin, or the whole one if it begins beyond half of it: a
         # corner that has just left the plate may still be that far below it. A regula falsi (Illinois), whose interval
         # shrinks from both ends.
