@@ -526,6 +526,11 @@ def made_up_transit(slowest: list[float], spread: list[float]) -> pd.DataFrame:
     return pd.DataFrame({"acceleration": 10.0 * np.arange(len(spread)), "velocity_05": slowest, "spread": spread})
 
 
+def alone(place: int) -> slice:
+    """A range of the amplitude that contains no other place of the table."""
+    return slice(place, place + 1)
+
+
 def around_with(table: pd.DataFrame, ends: dict[int, tuple[float, float]]):
     """The measures at a place, and at the ends of its margin if they differ there."""
 
@@ -549,14 +554,14 @@ def around_with(table: pd.DataFrame, ends: dict[int, tuple[float, float]]):
 )
 def test_advice_must_hold_within_the_margin(ends, expected):
     table = made_up_transit([-0.1, 0.09, 0.05, 0.08, 0.01], [0.1, 0.5, 0.2, 0.3, 0.05])
-    assert advice.choose(table, around_with(table, ends)) == expected
+    assert advice.choose(table, around_with(table, ends), alone) == expected
 
 
 def test_unknown_and_backward_velocities_give_less_advice():
     table = made_up_transit([-0.1, -0.02, np.nan], [0.1, 0.5, 0.2])
-    assert advice.choose(table, around_with(table, {})) == {"fast": 1}
+    assert advice.choose(table, around_with(table, {}), alone) == {"fast": 1}
     table = made_up_transit([np.nan], [np.nan])
-    assert advice.choose(table, around_with(table, {})) == {}
+    assert advice.choose(table, around_with(table, {}), alone) == {}
 
 
 def test_advice_has_the_measures_of_its_amplitude_and_of_changed_conveyors():
@@ -753,7 +758,7 @@ def test_an_amplitude_as_even_as_the_fast_one_is_no_advice_of_its_own():
     def around(place):
         return table
 
-    assert advice.choose(table, around) == {"fast": 1, "even": 1}
+    assert advice.choose(table, around, alone) == {"fast": 1, "even": 1}
 
 
 def test_a_table_without_known_amplitudes_gives_no_advice(refined):

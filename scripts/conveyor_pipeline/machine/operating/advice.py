@@ -83,18 +83,16 @@ def best(scores: np.ndarray, worst_of: Callable[[int], float]) -> int | None:
     return chosen
 
 
-def choose(
-    rows: pd.DataFrame, around: Callable[[int], pd.DataFrame], inside: Callable[[int], slice] | None = None
-) -> dict[str, int]:
+def choose(rows: pd.DataFrame, around: Callable[[int], pd.DataFrame], inside: Callable[[int], slice]) -> dict[str, int]:
     """The place of the recommended amplitude of each aim that can be met.
 
     rows : measures of varied parts over the amplitude
     around : the measures within the range of a place, and at its ends
-    inside : the places of `rows` within the range of a place, which bound the worst score; by default the place alone
+    inside : the places of `rows` within the range of a place, which bound the worst score
     """
 
     def bounds(scores: np.ndarray) -> np.ndarray:
-        return scores if inside is None else np.array([scores[inside(place)].min() for place in range(len(scores))])
+        return np.array([scores[inside(place)].min() for place in range(len(scores))])
 
     slowest = rows.velocity_05.to_numpy()
     fast = best(bounds(slowest), lambda place: around(place).velocity_05.min(skipna=False))

@@ -40,12 +40,9 @@ NORMAL = 1e-3  # share of the vibration along the track below which the plate mo
 DECIMALS = 6  # of velocities in m/s: smaller ones are rounding errors
 
 
-def stroke(acceleration: float, frequency: float) -> float:
-    """Displacement of the plate along the direction of vibration, peak to peak (m), without harmonics.
-
-    acceleration : amplitude (m/s²); frequency : Hz
-    """
-    return 2.0 * acceleration / (2.0 * math.pi * frequency) ** 2
+def stroke_per_amplitude(frequency: float) -> float:
+    """Displacement of the plate along the direction of vibration, peak to peak (m), at 1 m/s², without harmonics."""
+    return 2.0 / (2.0 * math.pi * frequency) ** 2
 
 
 def faster_than_plate(shares: pd.DataFrame) -> list[float]:
@@ -188,6 +185,6 @@ def make(
         # The digits to which the ends of intervals of amplitudes are known.
         "digits": max(0, math.ceil(-math.log10(shares.attrs["resolution"] * shares.acceleration.max()))),
         "throw_per_amplitude": shares.vertical.iloc[-1] / shares.acceleration.iloc[-1],
-        "stroke_per_amplitude": stroke(1.0, transit.attrs["model"]["frequency"]),
+        "stroke_per_amplitude": stroke_per_amplitude(transit.attrs["model"]["frequency"]),
     }
     return render(template, values)

@@ -323,11 +323,9 @@ def make(
         amplitudes, ways = switching(amplitude, settings)
         per_row = {way: even_cycles(np.count_nonzero(ways == way) / ROWS) for way in WAYS}
         for kind in KINDS:
-            motion = at_rest(rows)
-            if kind != AT_REST:
-                first = amplitude if kind == FED else amplitudes[0]
-                motion = dropped(first, settings, threads)
-            begin = 0 if kind != FED else int(np.argmax(ways == STAY))
+            begin = int(np.argmax(ways == STAY)) if kind == FED else 0
+            first = amplitude if kind == FED else amplitudes[0]
+            motion = at_rest(rows) if kind == AT_REST else dropped(first, settings, threads)
             fall = int(np.argmax(ways == DOWN))
             rising, motion = follow(rows, amplitudes[begin:fall], motion, settings, **options)
             counted = slice(-2 * HOLD // COUNTED, None)

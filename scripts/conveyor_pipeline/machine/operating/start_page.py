@@ -10,7 +10,7 @@ from conveyor_pipeline.common import grid
 from conveyor_pipeline.common.steepness import is_steep
 from conveyor_pipeline.common.templates import render
 from conveyor_pipeline.machine.operating.advice import EVEN, FAST
-from conveyor_pipeline.machine.operating.chart import CERTAIN, stroke
+from conveyor_pipeline.machine.operating.chart import CERTAIN, stroke_per_amplitude
 from conveyor_pipeline.machine.operating.populations import IDENTICAL, VARIED, differences
 from conveyor_pipeline.machine.operating.ramps import (
     AT_REST,
@@ -119,7 +119,7 @@ def make(
         "ends": ramp_ends(grid.axis_values("acceleration", settings["acceleration"])),
         "has_body": has_body,
         "slides": is_steep(settings["model"]),
-        "stroke_per_amplitude": stroke(1.0, settings["model"]["frequency"]),
+        "stroke_per_amplitude": stroke_per_amplitude(settings["model"]["frequency"]),
         "throw_number_per_amplitude": throw_number(1.0, **settings["model"]),
         "failed": int(start_motions.failed.sum()),
         "step": STEP,
