@@ -6,12 +6,13 @@ track is short, so that parts which ride do not arrive: their velocity is that o
 
 import itertools
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
 
-from conveyor import Block, length_and_speed_units, plate_motion, simulate_block, throw_number
-from conveyor_pipeline.common import fields
+from conveyor import Block, Start, length_and_speed_units, plate_motion, simulate_block, throw_number
+from conveyor_pipeline.common import fields, grid
 from conveyor_pipeline.machine.operating import body_limits
 from conveyor_pipeline.machine.operating.body_limits import MOTIONS, TILT
 from conveyor_pipeline.machine.operating.parts import population
@@ -103,23 +104,24 @@ def relative_difference(blocks: dict, points: dict) -> dict[str, float]:
     return {"difference": median / reference - 1.0, "difference_stderr": error / abs(reference)}
 
 
-def trace_landing(conveyor: np.ndarray, shape: tuple[float, float]) -> pd.DataFrame:
-    """Where the lower corners of a block of a shape are at OUTLINES; the row has its height above the plate, too."""
+def trace_landing(model: dict, acceleration: float, shape: tuple[float, float]) -> pd.DataFrame:
+    """Where the lower corners of a falling block are at OUTLINES, on a conveyor with an amplitude (m/s²)."""
+    conveyor, _ = grid.conveyor_and_start(model | {"acceleration": acceleration, "psi0": LANDING_PHASE})
     unit, _ = length_and_speed_units(conveyor)
-    length, height, frequency = shape[0] * unit, shape[0] * shape[1] * unit, conveyor["frequency"]
-    run = simulate_block(conveyor, Block(length, height), tilt=TILT, duration=3.0 / frequency)
+    block = Block(shape[0] * unit, shape[0] * shape[1] * unit)
+    run = simulate_block(conveyor, block, Start(3.0 * unit), tilt=TILT, duration=3.0 / conveyor.frequency)
 
     def outlines(times: np.ndarray) -> pd.DataFrame:
         samples = run.sample(times)
-        centre = samples["z"] + 0.5 * height * (1.0 - np.cos(samples["angle"]))
-        lever = 0.5 * length * np.sin(samples["angle"])
+        centre = samples["z"] + 0.5 * block.height * (1.0 - np.cos(samples["angle"]))
+        lever = 0.5 * block.length * np.sin(samples["angle"])
         ends = {"rear": centre - lever, "front": centre + lever}
-        return pd.DataFrame(ends | {"plate": plate_motion(run.conveyor, times)["z"], "angle": samples["angle"]})
+        return pd.DataFrame(ends | {"plate": plate_motion(conveyor, times)["z"], "angle": samples["angle"]})
 
     times = np.linspace(0.0, run.duration / 2.0, 3001)
     before = outlines(times)
     touched = times[np.argmax(before[["rear", "front"]].min(axis=1) <= before.plate)]
-    table = outlines(np.clip(touched + OUTLINES / frequency, 0.0, run.duration))
+    table = outlines(np.clip(touched + OUTLINES / conveyor.frequency, 0.0, run.duration))
     table.insert(0, "time", OUTLINES)
     return table
 
@@ -133,23 +135,22 @@ def make(settings: dict, *, progress: str | None = None) -> dict[str, pd.DataFra
     """The tables of curves and of the map for the settings of the config."""
     effort, model = settings["effort"], settings["model"]
     unit = throw_number(1.0, **model)
-    curves = {**settings, "starts": max(4, round(effort * body_limits.PARTS))}
+
+    def measure_shapes(shapes: Sequence, throws: np.ndarray, parts: int) -> list[dict]:
+        followed = {**settings, "starts": max(4, round(effort * parts))}
+        rows = population(throws / unit, followed, IDENTICAL)
+        return [row for shape in shapes for row in measure(rows, shape, followed, progress)]
+
     throws = np.linspace(*body_limits.THROWS, max(3, round(effort * body_limits.AMPLITUDES)))
-    rows = population(throws / unit, curves, IDENTICAL)
-    table = pd.DataFrame([row for shape in (None, *SHAPES) for row in measure(rows, shape, curves, progress)])
+    table = pd.DataFrame(measure_shapes((None, *SHAPES), throws, body_limits.PARTS))
     table["throw_number"] = np.tile(throws, len(SHAPES) + 1)
-    side = max(2, round(effort * CELLS))
-    lengths, heights = logarithmic(LENGTHS, side), logarithmic(SLENDERNESS, side)
+    cells = max(2, round(effort * CELLS))
+    of_map = list(itertools.product(logarithmic(LENGTHS, cells), logarithmic(SLENDERNESS, cells)))
     shapes = []
     for motion, throw in MOTIONS.items():
-        of_points = {**settings, "starts": max(4, round(effort * body_limits.POINTS))}
-        of_cells = {**settings, "starts": max(4, round(effort * body_limits.OF_A_CELL[motion]))}
-        (points,) = measure(population(np.array([throw]) / unit, of_points, IDENTICAL), None, of_points, progress)
-        rows = population(np.array([throw]) / unit, of_cells, IDENTICAL)
-        for shape in itertools.product(lengths, heights):
-            (blocks,) = measure(rows, shape, of_cells, progress)
+        (points,) = measure_shapes((None,), np.array([throw]), body_limits.POINTS)
+        for blocks in measure_shapes(of_map, np.array([throw]), body_limits.OF_A_CELL[motion]):
             compared = relative_difference(blocks, points)
             shapes.append({"motion": motion, "points_ride": points["rides"], **blocks, **compared})
-    (first,) = population(np.array([MOTIONS["coexist"]]) / unit, {**settings, "starts": 1}, IDENTICAL)
-    first["psi0"], first["vz0"], first["z0"] = LANDING_PHASE, 0.0, 3.0 * length_and_speed_units(first)[0]
-    return {"bodies": table, "body_shapes": pd.DataFrame(shapes), "landing": trace_landing(first, SHAPES[0])}
+    landing = trace_landing(model, MOTIONS["coexist"] / unit, SHAPES[0])
+    return {"bodies": table, "body_shapes": pd.DataFrame(shapes), "landing": landing}
