@@ -100,7 +100,7 @@ def guard(c, now, kind, i):
         if c.friction == 0.0 and c.static_friction == 0.0:
             return math.inf
         return now[SLIP, i] if mode == FORWARD else -now[SLIP, i]
-    if c.tension == model.TENSION_ALLOW or c.damping == 0.0:
+    if c.tension == model.TENSION_ALLOW:
         return math.inf
     return -now[WHOLE, i] if now[PULLED, i] else now[WHOLE, i]
 
