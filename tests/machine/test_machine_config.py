@@ -56,6 +56,10 @@ WRONG = [
         {"transit": {"length": 500}},
         "transit.length = 500.0 m is too long for transit.longest = 20.0 s, because the plate moves at most at 0.4",
     ),
+    (
+        {"transit": {"length": 0.2}, "model": {"angle": "90 deg"}},
+        "because the plate does not move along the track; give a smaller model.angle",
+    ),
     ({"parts": {"calibrated": True}}, "parts.calibrated needs measurements; name the config with"),
     (
         {"transit": {"length": 500}, "model": {"inclination": -0.1}},

@@ -13,6 +13,7 @@ from conveyor_pipeline.machine.excitation.limits import STATEMENT
 from conveyor_pipeline.machine.operating.settings import transit_axis
 from conveyor_pipeline.machine.operating.supply import FARTHEST
 
+NO_MOTION = 1e-9  # m/s; with an angle of throw of 90°, rounding alone moves the plate along the track
 AMPLITUDE_ERROR = 2.0  # no part has a drive whose amplitude is so many times the set one
 
 
@@ -185,6 +186,8 @@ def track(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     if not (config["model"]["inclination"] < 0.0 and is_steep(config["model"])):
         reason = f"because the plate moves at most at {speed:.3g} m/s"
         remedy = f"{millimetres(stated, 'transit.length', length) or 'give a shorter track'}, or give more time"
+        if speed < NO_MOTION:
+            reason, remedy = "because the plate does not move along the track", "give a smaller model.angle"
         yield f"transit.length = {length!r} m is too long for transit.longest = {longest!r} s, {reason}; {remedy}"
 
 

@@ -610,6 +610,8 @@ def test_static_friction_keeps_its_ratio_and_values_out_of_range_are_left_out():
     model = {"friction": 0.1, "static_friction": 0.2}
     assert advice.with_parameter(model, "friction", 0.15)["static_friction"] == pytest.approx(0.3)
     assert advice.with_parameter({"friction": 0.15}, "friction", 0.2) == {"friction": 0.2}
+    smooth = {"friction": 0.0, "static_friction": 0.1}
+    assert [advice.with_parameter(smooth, "friction", value)["static_friction"] for value in (0.05, 0.2)] == [0.1, 0.2]
     settings = TABLES["operating/transit"](si_config()) | {"starts": 8, "longest": 0.2}
     settings["model"] = settings["model"] | {"friction": 0.01}
     raised = settings | {"model": settings["model"] | {"friction": 0.03}}

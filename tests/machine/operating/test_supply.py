@@ -115,6 +115,8 @@ def test_range_that_a_controller_must_hold():
     )
     assert held == pytest.approx((16.5, 22.2), abs=1.0 / 2**advice.HALVINGS)
     assert advice.held_range(amplitudes, np.ones(21), 10, lambda at: None) == (10.0, 30.0)
+    # Parts that move back have no velocity to keep.
+    assert np.isnan(advice.held_range(amplitudes, -np.ones(21), 10, lambda at: None)).all()
 
 
 def test_a_range_goes_on_beyond_the_table_in_its_steps():

@@ -43,7 +43,11 @@ TABLES = {
         fields.number("worst", "m/s²", "amplitude with this quantile"),
         fields.number("spread_worst", "1", "largest relative spread within the range"),
         fields.number("held_low", "m/s²", f"lowest amplitude down to which {KEPT:g} of the 5 % quantile is kept"),
-        fields.number("held_high", "m/s²", "the highest one; both are null if the config states no supply"),
+        fields.number(
+            "held_high",
+            "m/s²",
+            "the highest one; both are null without a supply, or if the slowest parts do not move ahead",
+        ),
         fields.text("states", "states of motion at the nearest amplitude of the table of shares, with their shares"),
         fields.number("states_acceleration", "m/s²", "that amplitude"),
         fields.number("point_acceleration", "m/s²", "what would be recommended if blocks were points; null for points"),
@@ -128,11 +132,14 @@ def held_range(
 ) -> tuple[float, float]:
     """The amplitudes (m/s²) around a place of a table between which the 5 % quantile stays above KEPT of its value.
 
-    Bisection between two amplitudes of the table. At an end of the table, the amplitude of this end.
+    Bisection between two amplitudes of the table. At an end of the table, the amplitude of this end. NaN if the slowest
+    parts do not move ahead.
 
     slowest : the 5 % quantile of the velocity at the amplitudes
     measure_at : the measures at further amplitudes
     """
+    if not slowest[place] > 0.0:
+        return np.nan, np.nan
     lowest = KEPT * slowest[place]
     ends = []
     for step in (-1, 1):
@@ -150,10 +157,11 @@ def held_range(
 
 
 def with_parameter(model: dict, parameter: str, value: float) -> dict:
-    """A model with another value of one parameter; the static friction keeps its ratio to the friction."""
+    """A model with another value of one parameter; the static friction keeps its ratio to a friction above 0."""
     changed = {**model, parameter: value}
     if parameter == "friction" and "static_friction" in model:
-        changed["static_friction"] = model["static_friction"] * value / model["friction"]
+        static, friction = model["static_friction"], model["friction"]
+        changed["static_friction"] = static * value / friction if friction else max(static, value)
     return changed
 
 
