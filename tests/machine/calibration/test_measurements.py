@@ -65,6 +65,11 @@ BAD = {
     "empty velocity": (f"{HEAD}\n30,0.02\n40,\n50,0.06\n", 3, "has no velocity; fill it in"),
     "no duration": (f"{HEAD},duration\n30,0.02,1\n40,0.05,0\n50,0.06,1\n", 3, "duration = 0 must be more than 0"),
     "negative sd": (f"{HEAD},sd\n30,0.02,-0.001\n40,0.05,\n50,0.06,\n", 2, "sd = -0.001 is outside"),
+    "sd without a unit": (
+        "acceleration,velocity (cm/s),sd\n30,2,0.05\n40,5,0.05\n50,6,0.05\n",
+        1,
+        "states velocity in cm/s, and no unit of sd; state the units of both",
+    ),
     "sd in cm/s": (
         f"{HEAD},sd\n30,0.02,0.5\n40,0.05,\n50,0.06,\n",
         2,

@@ -90,6 +90,10 @@ def header_faults(names: list[str], units: list[str], known: Mapping) -> Iterato
         expected = COLUMNS[name][0] if name in COLUMNS else UNITS.get(name)
         if unit and name in known and HEADER_UNITS.get(unit, ("", 0.0))[0] != expected:
             yield f"states {name} in {unit!r}; give it in {expected}, without the unit in the header"
+    stated = dict(zip(names, units, strict=True))
+    for name, other_name in (("velocity", "sd"), ("sd", "velocity")):
+        if stated.get(name) not in (None, "", "m/s") and stated.get(other_name) == "":
+            yield f"states {name} in {stated[name]}, and no unit of {other_name}; state the units of both"
 
 
 def value_fault(name: str, value: float, interval: tuple[float, float]) -> str | None:
