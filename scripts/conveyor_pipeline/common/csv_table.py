@@ -302,11 +302,18 @@ def widths_of(line: str, separator: str) -> int:
     return line.count(separator) + 1
 
 
+def is_grouped_by_points(texts: Any) -> bool:
+    """Whether the numbers of a column are whole, with points between thousands, and some have less than a thousand."""
+    is_short = texts.str.fullmatch(r"[-+]?\d{1,3}")
+    return bool(is_short.any() and (is_short | texts.str.fullmatch(r"[-+]?[1-9]\d{0,2}(\.\d{3})+")).all())
+
+
 def number_signs(fields: Sequence[Any], separator: str) -> tuple[str, str]:
     """The decimal sign and the sign between thousands (may be empty) in columns of texts.
 
     A comma alone is decimal, unless a number has two of them, or each stands before three digits while other numbers
-    have a point. If some numbers have commas and more have points, commas are mistakes.
+    have a point. Points beside decimal commas are between thousands if each stands before three digits in a column that
+    has shorter numbers without any. If else some numbers have commas and more have points, commas are mistakes.
 
     Raises
     ------
@@ -339,6 +346,9 @@ def number_signs(fields: Sequence[Any], separator: str) -> tuple[str, str]:
             return ".", ","
         if mixed or (any(shorts) and separator != ";"):
             raise ValueError(next(texts.iloc[0] for texts in commas if len(texts)))
+    with_points = [texts for texts in fields if texts.str.contains(".", regex=False).any()]
+    if with_points and all(map(is_grouped_by_points, with_points)):
+        return ",", "."
     return (".", "") if points > sum(map(len, commas)) else (",", "")
 
 

@@ -86,7 +86,7 @@ BAD_SIGNALS = {
     "a drive that is off": (replace(DRIVE, acceleration=0.03, noise=1e-4), "and record while the drive is on"),
     "minutes": (
         replace(DRIVE, frequency=3000.0, rate=120_000.0),
-        "state the unit of its times as excitation.time_unit",
+        "its times may be in minutes; export them in s",
     ),
     "a drive that starts": (replace(DRIVE, drift=1.2), "is not steady: its amplitude at 50 Hz varies by "),
     "two drives of nearly one frequency": (replace(DRIVE, angle=1.2, cycles=60.0, also={49.5: 20.0}), "is not steady"),

@@ -318,6 +318,57 @@ def test_a_small_jump_is_refused_or_part_of_the_error_of_the_frequency():
     assert outside <= 2
 
 
+def test_a_jump_of_a_small_part_of_a_sample_is_no_loss():
+    """Coarse readings at nearly the same phases in each cycle move in steps, which looks like such a jump."""
+    coarse = Drive(acceleration=36.0, angle=0.35, noise=0.02, quantum=1.2)
+    for per_cycle, count, phase_shift, psi0 in ((19.9996, 2070, 0.97, -1.09), (16.00048, 1775, -0.14, -2.44)):
+        sampling = {"rate": per_cycle * coarse.frequency, "cycles": count / per_cycle}
+        drive = replace(coarse, phase_shift=phase_shift, psi0=psi0, **sampling)
+        check(drive.text(1), drive.settings)
+
+
+@pytest.mark.parametrize("rate", [500.0, 800.0, 1600.0])
+def test_a_drive_that_is_switched_on_in_the_file_is_no_second_sensor(rate):
+    time, readings = sampled(rate, count=round(0.4 * rate))
+    mean = np.array(PURE.offsets)[:, None]
+    readings = mean + (readings - mean) * (1.0 - np.exp(-time / 0.004))
+    values, errors, _, _ = estimates(text_of(time, readings))
+    assert abs(values["acceleration"] - PURE.acceleration) < 3.5 * errors["acceleration"]
+
+
+def test_harmonics_at_uneven_times_are_no_second_sensor():
+    harmonics = ((3, 0.25, 1.0, 0.25, -2.0), (5, 0.25, -1.0, 0.25, 0.5))
+    drive = replace(PURE, acceleration=118.0, angle=0.9, jitter=0.3, rate=612.5, harmonics=harmonics)
+    for seed in range(8):
+        time, readings = drive.record(seed)
+        check(text_of(time, readings), PURE.settings)
+
+
+def test_a_stated_frequency_rules_a_loss_of_samples_out():
+    drive = Drive(
+        acceleration=49.0,
+        angle=1.136,
+        psi0=3.0,
+        rate=400.0,
+        cycles=52.5,
+        noise=0.08,
+        mount=0.0,
+        harmonics=((3, 0.036, -0.15, 0.178, -1.556),),
+    )
+    for seed in range(12):
+        check(drive.text(seed), {**drive.settings, "frequency": drive.frequency})
+
+
+def test_a_strong_harmonic_of_a_long_recording_is_one_everywhere():
+    """The frequency that the model states holds behind the samples that are checked before all jobs, too."""
+    drive = replace(PURE, acceleration=15.0, cycles=1.25 * CHECKED / 32.0, harmonics=((2, 2.4, 0.5, 2.4, 0.9),))
+    text = drive.text()
+    assert "set model.frequency: 50 if the drive has a strong harmonic" in fault_of(text)
+    settings = {**drive.settings, "measured": "mine.csv"}
+    check(text, {**settings, "frequency": 50.0})
+    assert measure.make(text, settings)["parameters"]["value"][1] == pytest.approx(50.0, abs=1e-3)
+
+
 def test_a_drive_whose_phase_swings_slowly_is_right():
     """No samples are lost; the swing lowers the amplitude by more than the noise."""
     time, _ = sampled(1600.0)
@@ -456,6 +507,18 @@ def test_a_unit_behind_a_name_counts():
     text = text_of(TIMES, READINGS / STANDARD_GRAVITY, header="time,accel_x_g,accel_z_g")
     found = check(text, {"mount": PURE.mount, "columns": {"x": "accel_x_g", "z": "accel_z_g"}})
     assert found.unit == "g"
+
+
+def test_minutes_behind_a_name_are_refused():
+    """The drive of 50 Hz would be one of 3000 Hz, and a drive of 15 Hz one of 900 Hz, which a conveyor may have."""
+    text = text_of(TIMES / 60.0, READINGS, header="time_min,x,z", digits=9)
+    assert "states times in min" in fault_of(text, columns={"time": "time_min"})
+
+
+def test_points_between_thousands_beside_decimal_commas():
+    lines = [f"{t:.6f};{1e3 * x:,.0f};{1e3 * z:,.0f}" for t, (x, z) in zip(TIMES, READINGS.T / 9.80665, strict=True)]
+    text = "\n".join(["time;x (mg);z (mg)", *lines, ""]).replace(".", "!").replace(",", ".").replace("!", ",")
+    assert_right(estimates(text, unit="mg"))
 
 
 @pytest.mark.parametrize("ratio", [0.7, 0.9])
@@ -998,7 +1061,7 @@ def test_twice_the_stated_frequency_is_that_of_a_magnet_at_the_mains():
 
 
 def test_times_in_days_are_named():
-    assert "its times may be in days, as" in fault_of(text_of(TIMES / 86400.0, READINGS, digits=14))
+    assert "its times may be in days; export" in fault_of(text_of(TIMES / 86400.0, READINGS, digits=14))
     assert "its times may be in hours" in fault_of(text_of(TIMES / 3600.0, READINGS, digits=14))
 
 

@@ -57,9 +57,10 @@ LEAST_ACCELERATION, MOST_ACCELERATION = 0.05, 1500.0
 MOST_DISPLACEMENT = 0.03  # m: slow shaking conveyors have up to 20 mm
 LEAST_FREQUENCY = 3.0  # Hz; with half of gravity, a plate would move by 14 mm
 MOST_FREQUENCY = 1000.0  # Hz; with the largest acceleration, a plate would move by 0.04 mm
-LONG = {"days": 86400.0, "hours": 3600.0}  # s
+LONG = {"days": 86400.0, "hours": 3600.0, "minutes": 60.0}  # s
 DIFFERENT = 2.0  # difference of two frequencies in units of 1/T
 LEAST_CHANGE = 0.01  # of gravity, where another sensor begins
+LEAST_LOSS = 0.1  # samples; a smaller jump of the phase is part of the error of the frequency (estimates.loss_error)
 CHANCE = 1e-4  # that noise alone looks like a jump of the phase or the amplitude
 MOST_SHARE = 10.0  # of a harmonic, in model.harmonics
 MOST_RATE_ERROR = 2e-3  # relative standard error of the sampling rate
@@ -168,6 +169,12 @@ class Signal(NamedTuple):
     @property
     def rate(self) -> float:
         return sampling_rate(self.recording.time)
+
+    @property
+    def is_as_stated(self) -> bool:
+        """Whether model.frequency states the frequency of the drive."""
+        stated = self.settings.get("frequency")
+        return bool(stated) and abs(self.fitted.frequency / stated - 1.0) < OTHER_FREQUENCY
 
     def jump(self, part: str) -> Jump | None:
         """The jump of the phase (`imag`) or of the amplitude (`real`), if there is one alone."""
@@ -334,6 +341,7 @@ def or_harmonic(signal: Signal) -> str:
 def sampling_faults(signal: Signal) -> Iterator[Fault]:
     """Samples that are lost, or whose times are wrong."""
     modulation = signal.modulation
+    phase_per_sample = 2.0 * math.pi * signal.fitted.frequency / signal.rate
     line = timing_line(signal.time, signal.fitted, modulation)
     if line and line[0] * signal.rate < 0.25 * signal.fitted.frequency and not is_sawtooth(modulation, line[0]):
         yield (
@@ -349,13 +357,15 @@ def sampling_faults(signal: Signal) -> Iterator[Fault]:
             f"times are not those of the samples{or_harmonic(signal)}. If one of {every:.3g} samples is lost, the "
             f"drive vibrates at {right:.5g} Hz; record without losses, or with the time of each sample"
         )
-    elif every := loss_in_step(signal.time, signal.recording.acceleration[:, : len(signal.time)], signal.fitted):
+    elif not signal.is_as_stated and (
+        every := loss_in_step(signal.time, signal.recording.acceleration[:, : len(signal.time)], signal.fitted)
+    ):
         yield (
             f"has harmonics that vanish if one of {every} samples is lost, and then the drive vibrates at "
             f"{signal.fitted.frequency * (every - 1.0) / every:.5g} Hz; record without losses, or with the time of "
             "each sample"
         )
-    elif jump := signal.jump("imag"):
+    elif (jump := signal.jump("imag")) and abs(jump.size) > LEAST_LOSS * phase_per_sample:
         yield (
             int(signal.recording.lines[jump.sample]),
             f"follows a jump of the phase by {jump.size:.2g} rad, as where samples are lost and the times do not show "
@@ -386,6 +396,9 @@ def sensor_faults(signal: Signal) -> Iterator[Fault]:
         )
     elif jump := signal.jump("real"):
         parts = slice(0, jump.sample), slice(jump.sample, len(signal.time))
+        # The offset of a shorter piece is not that of the sensor.
+        if min(duration_of(signal.time[part]) for part in parts) * fitted.frequency < LEAST_CYCLES:
+            return
         first, last = (
             fit(recording.time[part], recording.acceleration[:, part], fitted.frequency, fitted.orders)
             for part in parts
@@ -442,9 +455,7 @@ def ambiguity_faults(signal: Signal) -> Iterator[Fault]:
     Buffers that are stamped faster than they were measured look like a faster drive, sampled in bursts.
     """
     frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
-    if stated and abs(frequency / stated - 1.0) < OTHER_FREQUENCY:
-        return
-    for alternative in signal.recording.others:
+    for alternative in () if signal.is_as_stated else signal.recording.others:
         time = alternative.time[:CHECKED]
         other_frequency = first_fit(time, alternative.acceleration[:, :CHECKED], stated)[0].frequency
         if abs(other_frequency - frequency) > DIFFERENT / duration_of(time):
@@ -533,9 +544,9 @@ def frequency_faults(signal: Signal) -> Iterator[Fault]:
         remedy = "state the unit of its times as excitation.time_unit (s, ms, µs, ns)"
         fits = [name for name, unit in LONG.items() if LEAST_FREQUENCY < frequency / unit < MOST_FREQUENCY]
         if fits:
-            remedy = f"its times may be in {' or '.join(fits)}, as spreadsheets have them; export them in s"
+            remedy = f"its times may be in {' or '.join(fits)}; export them in s"
         yield f"vibrates at {frequency:.5g} Hz, as no conveyor does; {remedy}"
-    elif stated and abs(frequency / stated - 1.0) > OTHER_FREQUENCY:
+    elif stated and not signal.is_as_stated:
         factor = frequency / stated
         if abs(factor - 2.0) < 2.0 * OTHER_FREQUENCY:
             yield (
@@ -645,9 +656,11 @@ def later_faults(
     count = len(recording.time)
     place = np.arange(len(recording.time))
     length = max(CHECKED, math.ceil(2 * LEAST_CYCLES * sampling_rate(recording.time) / fitted.frequency))
+    # The checked samples have shown which line is the fundamental.
+    known = {**settings, "frequency": fitted.frequency}
     for end in [*range(CHECKED + length, count, length), count] if count > CHECKED else ():
         piece = keep(recording, (place >= end - length) & (place < end))._replace(others=())
-        if faults := first_faults(signal_of(piece, settings, length), OF_SIGNAL[1:]):
+        if faults := first_faults(signal_of(piece, known, length), OF_SIGNAL[1:]):
             lines = f"in the lines {piece.lines[0]:,} to {piece.lines[-1]:,}, it"
             return [(line, fault if line else f"{lines} {fault}") for line, fault in faults]
     whole = Signal(recording, fitted, extra_line, modulation_of(recording.time, fitted), settings)

@@ -99,7 +99,10 @@ def project(
         design = design_of(time[part], time[-1], frequency, orders)
         gram += design @ design.T
         products += design @ signals[:, part].T
-    values = np.linalg.solve(gram, products)
+    try:
+        values = np.linalg.solve(gram, products)
+    except np.linalg.LinAlgError:  # fewer samples than columns of the design, which the checks refuse
+        values = np.linalg.lstsq(gram, products, rcond=None)[0]
     angular_orders = 2.0 * math.pi * np.arange(1, orders + 1)[:, None]
     cosines, sines = values[2 : 2 + orders], values[2 + orders :]
     turned = np.vstack([angular_orders * sines, -angular_orders * cosines])  # of the cosines and of the sines

@@ -70,23 +70,29 @@ def modulation_of(time: np.ndarray, fitted: Fit) -> Modulation:
     count = 2 * (len(time) // 2)
     first = np.exp(2j * math.pi * fitted.frequency * (time[:count] - fitted.middle))
     wave = first.copy()
-    remainder = fitted.residual[:, :count].copy()
+    residual = fitted.residual[:, :count]
+    remainder = residual.copy()
     for order in range(1, fitted.orders):
         wave *= first
         remainder += (fitted.amplitudes[:, order, None] * wave).real
     size = 0.5 * np.abs(fitted.amplitudes[:, 0]) ** 2
     # Real part: error of the amplitude; imaginary part: of the phase.
-    products = remainder * np.conj(fitted.amplitudes[:, :1] * first)
-    window = np.hanning(count)
-    errors = products.sum(axis=0) / size.sum()
-    gain, phase = (np.abs(np.fft.rfft(window * part)) * 2.0 / window.sum() for part in (errors.real, errors.imag))
+    turning = np.conj(fitted.amplitudes[:, :1] * first)
+    products, window = remainder * turning, np.hanning(count)
+
+    def spectra(errors: np.ndarray) -> list[np.ndarray]:
+        return [np.abs(np.fft.rfft(window * part)) * 2.0 / window.sum() for part in (errors.real, errors.imag)]
+
+    gain, phase = spectra(products.sum(axis=0) / size.sum())
     sign = window * np.where(np.arange(count) % 2 == 0, 1.0, -1.0) / window.sum()
     alternating = np.array([(sign * part).sum(axis=1) / size for part in (products.real, products.imag)]).T
+    # Without the harmonics, which are no lines over the number of the sample, but noise, if the times are uneven.
+    gain_floor, phase_floor = (np.median(part) ** 2 for part in spectra((residual * turning).sum(axis=0) / size.sum()))
     noise = np.sqrt((fitted.residual**2).mean(axis=1) / size) * math.sqrt((window**2).sum()) / window.sum()
-    floors = np.median(phase) ** 2, np.median(gain) ** 2
+    noise *= max(np.median(gain) / math.sqrt(gain_floor), 1.0)
     unit = 4.0 * (window**2).sum() / window.sum() ** 2 * math.log(2.0)
-    scatter = math.sqrt((floors[0] - floors[1]) / unit) if floors[0] > SCATTERED * floors[1] else 0.0
-    spread = math.sqrt((floors[1] - floors[0]) / unit) if floors[1] > SCATTERED * floors[0] else 0.0
+    scatter = math.sqrt((phase_floor - gain_floor) / unit) if phase_floor > SCATTERED * gain_floor else 0.0
+    spread = math.sqrt((gain_floor - phase_floor) / unit) if gain_floor > SCATTERED * phase_floor else 0.0
     return Modulation(np.fft.rfftfreq(count), phase, gain, alternating, noise, scatter, spread)
 
 

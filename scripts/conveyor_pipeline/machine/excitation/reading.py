@@ -78,9 +78,9 @@ def wanted(settings: Mapping[str, Any]) -> Callable[[str], bool]:
     return lambda header: is_known(header) or bool(named & spellings_of(header))
 
 
-def unit_behind(name: str) -> str:
-    """The unit at the end of a name, such as time_ms or accel_x_g; empty for none."""
-    written = re.search(r"[ _](ms|us|µs|ns|g|mg)$", name, re.IGNORECASE)
+def unit_behind(name: str, units: str) -> str:
+    """The unit at the end of a name, such as time_ms or accel_x_g, of a list with bars between them; empty for none."""
+    written = re.search(rf"[ _]({units})$", name, re.IGNORECASE)
     return written[1].lower() if written else ""
 
 
@@ -250,7 +250,7 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
     if faults:
         raise table.error((table.header, fault) for fault in faults)
     pair = AXES if AXES[0] in names else SENSOR
-    units = [table.units[places[key]] or unit_behind(names[key]) for key in pair]
+    units = [table.units[places[key]] or unit_behind(names[key], "g|mg") for key in pair]
     unit, faults = unit_of(settings.get("unit"), units, UNITS, "unit")
     mount = settings["mount"]
     rate = settings.get("rate")
@@ -259,7 +259,7 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
         faults.append(f"has columns along and normal, but excitation.mount = {mount} turns x and z only; {remedy}")
     time_unit = "s"
     if rate is None:
-        header = table.units[places["time"]] or unit_behind(names["time"])
+        header = table.units[places["time"]] or unit_behind(names["time"], "s|sec|ms|us|µs|ns|min|h")
         time_unit, time_faults = unit_of(settings.get("time_unit"), [header], TIME_UNITS, "time_unit")
         if header in LONG_UNITS:
             time_faults = [
