@@ -89,6 +89,11 @@ def length_scale(model: Mapping[str, float]) -> float:
     return normal_gravity(model) / (2.0 * math.pi * model["frequency"]) ** 2
 
 
+def speed_scale(model: Mapping[str, float]) -> float:
+    """The unit of velocity of the motion normal to the track, g cos α/ω (m/s)."""
+    return normal_gravity(model) / (2.0 * math.pi * model["frequency"])
+
+
 # Methods with a fixed step. The position of a name is its code in compiled functions.
 FIXED_STEP_METHODS = ("euler", "semi_implicit_euler", "rk4")
 

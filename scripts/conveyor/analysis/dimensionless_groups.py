@@ -32,6 +32,7 @@ from numpy.typing import ArrayLike
 from ..arguments import check_number
 from ..elementary import cos, power
 from ..packing import as_rows, one_row, refuse_harmonics
+from ..parameters import length_scale, speed_scale
 from ..solver import contact_law, model
 from ..solver.model import PARAMETERS, Conveyor, normal_gravity
 
@@ -89,9 +90,8 @@ def length_and_speed_units(conveyor: Conveyor | np.ndarray) -> tuple[float, floa
     >>> round(1e6 * length, 1), round(1e3 * speed, 1)  # µm, mm/s
     (99.4, 31.2)
     """
-    parameters = one_row(conveyor)
-    omega, gravity = 2.0 * math.pi * parameters[model.FREQUENCY], normal_gravity(parameters)
-    return float(gravity / omega**2), float(gravity / omega)
+    numbers = dict(zip(PARAMETERS, one_row(conveyor).tolist(), strict=False))  # behind them are those of harmonics
+    return length_scale(numbers), speed_scale(numbers)
 
 
 def distance(conveyor: Conveyor | np.ndarray, state: np.ndarray, others: np.ndarray) -> float:

@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from conveyor.parameters import length_scale, normal_gravity
+from conveyor.parameters import length_scale, normal_gravity, speed_scale
 from conveyor_pipeline.config.files import merge
 from conveyor_pipeline.config.schema import child, schema_at, unit_of
 from conveyor_pipeline.config.stages import declared
@@ -24,12 +24,10 @@ def scales_of(model: dict) -> dict[str, float]:
 
     a_z is the amplitude of the fundamental, without the harmonics of the plate.
     """
-    gravity, omega = normal_gravity(model), 2.0 * math.pi * model["frequency"]
-    amplitude = gravity / math.sin(model["angle"])
     return {
-        "m/s²": amplitude,
+        "m/s²": normal_gravity(model) / math.sin(model["angle"]),
         "m": length_scale(model),
-        "m/s": gravity / omega,
+        "m/s": speed_scale(model),
         "s": 1.0 / model["frequency"],
         "Hz": model["frequency"],
     }
