@@ -27,21 +27,16 @@ PAGES = {
 }
 # The tables behind the facts, by their roles in scripts/conveyor_pipeline/pages/facts.py.
 FACTS = {
-    **tables_of("results/claims", "lyapunov/spectrum", "orbits/cascade"),
+    **tables_of("results/claims", "lyapunov/spectrum", "orbits/cascade", "critical/edge", "critical/edge_euler"),
+    **tables_of("sweeps/on_plate", "operating/transit", "operating/advice", "operating/bodies"),
     **PRECISION,
     **PAGES["certificates"],
-    "edge": table("critical/edge"),
-    "edge_euler": table("critical/edge_euler"),
     "estimate": table("estimates/phase"),
     "estimate_euler": table("estimates/phase_euler"),
-    "on_plate": table("sweeps/on_plate"),
     "fit": table("regressions/height"),
     "moved": table("results/moved_impacts"),
-    "transit": table("operating/transit"),
     "lengths": table("operating/track_lengths"),
-    "advice": table("operating/advice"),
     "drives": table("excitation/clean_drive"),
-    "bodies": table("operating/bodies"),
 }
 KEPT_PAGES = ("README.md", "metadata.yaml", "codecheck.yml")
 ARTICLE_PARTS = {
