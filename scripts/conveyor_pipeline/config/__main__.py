@@ -14,7 +14,7 @@ from conveyor_pipeline.config import ConfigError, load_config
 from conveyor_pipeline.config.derived import origins_of
 from conveyor_pipeline.config.errors import format_key
 from conveyor_pipeline.config.files import DEFAULT_FILES, USER_FILE, find_lines
-from conveyor_pipeline.config.schema import child, schema_at, unit_of
+from conveyor_pipeline.config.schema import schema_at, unit_of
 
 
 def values_of(value: object, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], object]]:
@@ -28,10 +28,8 @@ def values_of(value: object, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple
 
 def with_unit(path: tuple[str, ...], value: object) -> str:
     """A value as JSON, with the unit of its key; the schema gives the unit of a list at its first item."""
-    first, schema = (
-        (value[:1], child(schema_at([*path]), 0)) if isinstance(value, list) else ([value], schema_at([*path]))
-    )
-    unit = unit_of(schema) if any(isinstance(item, int | float) for item in first) else ""
+    values, place = (value, (*path, 0)) if isinstance(value, list) else ([value], path)
+    unit = unit_of(schema_at(place)) if values and isinstance(values[0], int | float) else ""
     return f"{json.dumps(value, ensure_ascii=False)} {unit if unit != '1' else ''}".rstrip()
 
 

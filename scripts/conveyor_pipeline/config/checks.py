@@ -24,7 +24,7 @@ from conveyor_pipeline.config.entries import (
     variants,
 )
 from conveyor_pipeline.config.errors import format_key, suggest_name, type_problems
-from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read
+from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read, walk
 from conveyor_pipeline.config.model import MODEL, is_same_model
 from conveyor_pipeline.config.scales import faults_of_scales, to_si
 from conveyor_pipeline.config.schema import schema_at, unit_of
@@ -146,23 +146,14 @@ def exponent(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 
 def faults_of_stiffness(config: dict, typed: dict) -> Iterator[str]:
     """Units of stiffness, N/m^p, whose exponent p is not the exponent of the model; `typed` is the validated config."""
-    for path, text in texts_of(config):
-        if is_quantity(text) and unit_of(schema_at([*path])) == STIFFNESS:
+    for path, text in walk(config):
+        if isinstance(text, str) and is_quantity(text) and unit_of(schema_at(path)) == STIFFNESS:
             entry = typed[path[0]].get(path[1], {}) if path[0] in ENTRIES else {}
             model = typed["model"] | entry.get("model", {})
             exponents = ends(entry.get("axes", {}).get("exponent", [model["exponent"]]))
             if any(exponent != exponent_of(text) for exponent in exponents):
                 needed = " and ".join(f"N/m^{exponent:g}" for exponent in exponents)
                 yield f"{format_key(path)} = {text!r} is not in the unit of the contact law; give it in {needed}"
-
-
-def texts_of(value: object, path: tuple = ()) -> Iterator[tuple[tuple, str]]:
-    """The texts of a config with their paths."""
-    if isinstance(value, str):
-        yield path, value
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    for key, item in items:
-        yield from texts_of(item, (*path, key))
 
 
 def sweeps(config: dict, defaults: dict, stated: dict) -> Iterator[str]:

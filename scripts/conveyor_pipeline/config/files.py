@@ -70,12 +70,12 @@ def find_lines(file: str | Path) -> dict[tuple[str | int, ...], str]:
     return dict(lines_below(YAML(typ="safe").compose(Path(file).read_text(encoding="utf-8")), ()))
 
 
-def paths_of(config: Any, path: tuple = ()) -> Iterator[tuple]:
-    """The paths of all keys and list items of a config."""
+def walk(config: Any, path: tuple = ()) -> Iterator[tuple[tuple, Any]]:
+    """All keys and list items of a config, as paths with their values."""
     items = config.items() if isinstance(config, dict) else enumerate(config) if isinstance(config, list) else ()
     for part, value in items:
-        yield (*path, part)
-        yield from paths_of(value, (*path, part))
+        yield (*path, part), value
+        yield from walk(value, (*path, part))
 
 
 def name_lines(errors: Sequence[str], files: Sequence[str | Path], config: dict) -> list[str]:
@@ -86,7 +86,7 @@ def name_lines(errors: Sequence[str], files: Sequence[str | Path], config: dict)
     config : values that replace those of the files, of the option --config; without files, of another workflow
     """
     in_files = {format_key(path): line for file in files for path, line in find_lines(file).items()}
-    lines = in_files | ({format_key(path): "--config" for path in paths_of(config)} if files else {})
+    lines = in_files | ({format_key(path): "--config" for path, _ in walk(config)} if files else {})
     named = []
     for error in errors:
         key, _, fault = error.partition(" ")

@@ -54,7 +54,7 @@ def to_si(config: dict) -> dict:
     scales = scales_of(config["model"])
     converted = merge(config)
     for path in SCALED:
-        section, schema = section_at(converted, path), schema_at([*path])
+        section, schema = section_at(converted, path), schema_at(path)
         values = section.pop("dimensionless", {})
         si_values = {key: convert(value, child(schema, key), scales) for key, value in values.items()}
         section |= merge(si_values, {key: section[key] for key in si_values if key in section})

@@ -1,6 +1,7 @@
 """The JSON Schema of the config: for editors (config/schema.json) and error messages."""
 
 import json
+from collections.abc import Iterable
 from functools import cache
 
 from pydantic.json_schema import GenerateJsonSchema
@@ -55,7 +56,7 @@ def child(schema: dict, part: str | int) -> dict:
     return {}
 
 
-def schema_at(path: list[str | int]) -> dict:
+def schema_at(path: Iterable[str | int]) -> dict:
     """The schema of the value at a path."""
     schema = full_schema()
     for part in path:
