@@ -93,7 +93,7 @@ WRONG = [
     ),
     (
         {"sweeps": {"heights": {"step": 0.1, "duration": 0.02}}},
-        "sweeps.heights.step = 0.1 s is longer",
+        "sweeps.heights.step = 0.1 s is too long for 50 Hz",
     ),
     ({"sweeps": {"heights": {"step": 1.0e-12}}}, "sweeps.heights.step = 1e-12 s makes 1e+12 steps"),
     ({"solver": {"step": 0.1}}, "solver.step (of sweeps.amplitudes) = 0.1 s is too long for 50 Hz"),

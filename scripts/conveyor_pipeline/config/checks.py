@@ -11,7 +11,7 @@ from importlib import import_module
 
 from conveyor_pipeline.common.axes import count_points, count_values, ends
 from conveyor_pipeline.common.quantities import STIFFNESS, exponent_of, is_quantity
-from conveyor_pipeline.config.derived import faults_of_derived, with_derived
+from conveyor_pipeline.config.derived import faults_of_derived, is_given, with_derived
 from conveyor_pipeline.config.entries import (
     ENTRIES,
     FIGURES,
@@ -26,7 +26,7 @@ from conveyor_pipeline.config.entries import (
 from conveyor_pipeline.config.errors import format_key, suggest_name, type_problems
 from conveyor_pipeline.config.files import DEFAULT_FILES, merge, read, walk
 from conveyor_pipeline.config.model import MODEL, is_same_model
-from conveyor_pipeline.config.scales import faults_of_scales, to_si
+from conveyor_pipeline.config.scales import faults_of_scales, section_at, to_si
 from conveyor_pipeline.config.schema import schema_at, unit_of
 from conveyor_pipeline.config.stages import FLOORS
 from conveyor_pipeline.config.tables import NAMED, TABLES, entry_of, references, references_of
@@ -53,18 +53,12 @@ def prefix(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 
 def other_models(config: dict, defaults: dict) -> Iterator[str]:
     """The first difference of each section or entry of the paper whose model is not the paper's, as KEY = VALUE."""
-    entries = {f"{section}.{name}": (section, name) for section in ENTRIES for name in defaults[section]}
-    sections = {key: (config[section][name], defaults[section][name]) for key, (section, name) in entries.items()}
-    sections |= {name: (config[name], defaults[name]) for name in ("orbits", "attractors") if name in defaults}
-    models = {"model": ({}, {})}
-    models |= {
-        f"{key}.model": (section.get("model", {}), paper.get("model", {})) for key, (section, paper) in sections.items()
-    }
-    for key, differences in models.items():
-        model, paper = (base["model"] | change for base, change in zip((config, defaults), differences, strict=True))
+    entries = [(section, name) for section in ENTRIES for name in defaults[section]]
+    for path in [(), *entries, ("orbits",), ("attractors",)]:
+        model, paper = (whole["model"] | section_at(whole, path).get("model", {}) for whole in (config, defaults))
         if not is_same_model(model, paper):
             name = next(name for name, value in model.items() if name not in paper or value != paper[name])
-            yield f"{key}.{name} = {model[name]!r}"
+            yield f"{format_key((*path, 'model', name))} = {model[name]!r}"
 
 
 def measured_files(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
@@ -136,12 +130,11 @@ def faults_of_friction(config: dict, changed: dict[str, dict]) -> Iterator[str]:
 
 def exponent(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Another exponent with the default stiffness, whose number has another unit then."""
-    model, default = config["model"], defaults["model"]
-    is_given = "stiffness" in (stated.get("model") or {}) or model["stiffness"] != default["stiffness"]
-    if config["prefix"] and model["exponent"] != default["exponent"] and not is_given:
-        unit = f"N/m^{model['exponent']:g}".removesuffix("^1")
-        remedy = f"state model.stiffness in {unit} too"
-        yield f"model.exponent = {model['exponent']!r} changes the unit of model.stiffness; {remedy}"
+    exponent = config["model"]["exponent"]
+    is_other = config["prefix"] and exponent != defaults["model"]["exponent"]
+    if is_other and not is_given("stiffness", config, defaults, stated):
+        unit = f"N/m^{exponent:g}".removesuffix("^1")
+        yield f"model.exponent = {exponent!r} changes the unit of model.stiffness; state model.stiffness in {unit} too"
 
 
 def faults_of_stiffness(config: dict, typed: dict) -> Iterator[str]:
@@ -181,9 +174,7 @@ def faults_of_step(key: str, step: float, duration: float, frequency: float) -> 
     shown = f"{key} = {step!r} s"
     largest = 1.0 / (STEPS_IN_A_CYCLE * frequency)
     whole = max(1, round(duration / step))
-    if step > duration:
-        yield f"{shown} is longer than its duration of {duration!r} s; take less"
-    elif step > largest * (1.0 + 1e-9):
+    if step > largest * (1.0 + 1e-9):
         yield f"{shown} is too long for {frequency:g} Hz; take at most {largest:g} s, 1/{STEPS_IN_A_CYCLE} of a cycle"
     elif duration / step > MOST_STEPS:
         shortest = f"{duration / MOST_STEPS:g} s"

@@ -24,6 +24,11 @@ def origins_of(config: dict) -> dict[str, str]:
     return {name: section for section, derive in DERIVED.items() for name in derive(config)}
 
 
+def is_given(name: str, config: dict, defaults: dict, stated: dict) -> bool:
+    """Whether the user gives a parameter of the model, possibly its default."""
+    return name in stated.get("model", {}) or config["model"][name] != defaults["model"][name]
+
+
 def faults_of_derived(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """Sections that cannot be met, and those that a stated parameter of the model contradicts; one line each."""
     for section, derive in DERIVED.items():
@@ -34,8 +39,7 @@ def faults_of_derived(config: dict, defaults: dict, stated: dict) -> Iterator[st
             continue
         for name, value in derived.items():
             model_value = config["model"][name]
-            is_given = name in (stated.get("model") or {}) or model_value != defaults["model"][name]
-            if is_given and not math.isclose(model_value, value, rel_tol=SAME):
+            if is_given(name, config, defaults, stated) and not math.isclose(model_value, value, rel_tol=SAME):
                 remedy = f"remove it, or what gives it in the section {section}"
                 value = f"{value!r} {UNITS[name]}".replace("^p", f"^{config['model']['exponent']:g}")
                 yield f"model.{name} = {model_value!r} contradicts the section {section}, which gives {value}; {remedy}"
