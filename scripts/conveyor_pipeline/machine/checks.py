@@ -7,7 +7,7 @@ from conveyor_pipeline.common import csv_table
 from conveyor_pipeline.common.axes import count_values, ends
 from conveyor_pipeline.common.settings import check_span
 from conveyor_pipeline.config.checks import LARGEST_TABLE
-from conveyor_pipeline.config.derived import origins_of
+from conveyor_pipeline.config.derived import is_given, origins_of
 from conveyor_pipeline.machine.calibration import measurements
 from conveyor_pipeline.machine.excitation.limits import STATEMENT
 from conveyor_pipeline.machine.operating.settings import transit_axis
@@ -17,30 +17,63 @@ NO_MOTION = 1e-9  # m/s; with an angle of throw of 90°, rounding alone moves th
 AMPLITUDE_ERROR = 2.0  # no part has a drive whose amplitude is so many times the set one
 
 
-def transit_amplitudes(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    """Faults of an axis that takes some of its keys from operating.acceleration."""
+def operating(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    section = config["operating"]
+    yield from faults_of_runs("operating.starts", section["acceleration"], section["starts"])
+
+
+def transit(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
+    """Faults of an axis that takes some of its keys from operating.acceleration, and of the parts and the track."""
     axis = transit_axis(config)
-    if not isinstance(axis, dict):
-        return
-    if missing := [key for key in ("start", "stop", "num") if key not in axis]:
-        remedy = "give start, stop and num, or remove transit.acceleration, so that operating.acceleration counts"
-        yield f"transit.acceleration lacks {', '.join(missing)}, and operating.acceleration is a list; {remedy}"
-        return
-    try:
-        check_span(axis)
-    except ValueError as error:
-        yield f"transit.acceleration, with what operating.acceleration adds, {error}"
+    if isinstance(axis, dict):
+        if missing := [key for key in ("start", "stop", "num") if key not in axis]:
+            remedy = "give start, stop and num, or remove transit.acceleration, so that operating.acceleration counts"
+            yield f"transit.acceleration lacks {', '.join(missing)}, and operating.acceleration is a list; {remedy}"
+            return
+        try:
+            check_span(axis)
+        except ValueError as error:
+            yield f"transit.acceleration, with what operating.acceleration adds, {error}"
+            return
+    yield from faults_of_runs("transit.parts", axis, config["transit"]["parts"])
+    yield from faults_of_track(config, defaults, stated, largest=max(ends(axis)))
 
 
-def numbers_of_runs(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    axes = {"operating": config["operating"]["acceleration"], "transit": transit_axis(config)}
-    for section, number in (("operating", "starts"), ("transit", "parts")):
-        axis = axes[section]
-        if isinstance(axis, dict) and "num" not in axis:  # see transit_amplitudes
-            continue
-        runs = count_values(axis) * config[section][number]
-        if runs > LARGEST_TABLE:
-            yield f"{section}.{number} makes {runs:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
+def faults_of_runs(key: str, axis: dict | list, number: int) -> Iterator[str]:
+    runs = count_values(axis) * number
+    if runs > LARGEST_TABLE:
+        yield f"{key} makes {runs:,} points; at most {LARGEST_TABLE:,} are computed: give fewer"
+
+
+def faults_of_track(config: dict, defaults: dict, stated: dict, largest: float) -> Iterator[str]:
+    """A track that is shorter than a part, or that no part can pass in time at the `largest` amplitude."""
+    length, longest = config["transit"]["length"], config["transit"]["longest"]
+    for key in ("body.length", "advice.part_length"):
+        section, _, name = key.partition(".")
+        if (part := config.get(section, {}).get(name, 0.0)) > length:
+            remedy = millimetres(stated, key, part) or "give a longer transit.length"
+            yield f"{key} = {part!r} m is longer than the track, transit.length = {length!r} m; {remedy}"
+    # On a fast drive, no part may pass the default track.
+    if length == defaults["transit"]["length"]:
+        return
+    speed = measurements.plate_velocity(largest, config["model"])
+    if length <= AMPLITUDE_ERROR * speed * longest:
+        return
+    from conveyor_pipeline.common.steepness import is_steep  # NumPy, see excitation
+
+    # Parts may slide down a steep track faster than the plate ever moves.
+    if not (config["model"]["inclination"] < 0.0 and is_steep(config["model"])):
+        reason = f"because the plate moves at most at {speed:.3g} m/s"
+        remedy = f"{millimetres(stated, 'transit.length', length) or 'give a shorter track'}, or give more time"
+        if speed < NO_MOTION:
+            reason, remedy = "because the plate does not move along the track", "give a smaller model.angle"
+        yield f"transit.length = {length!r} m is too long for transit.longest = {longest!r} s, {reason}; {remedy}"
+
+
+def millimetres(stated: dict, key: str, value: float) -> str:
+    """The remedy for a length that is a number without a unit; empty for one with a unit."""
+    section, _, name = key.partition(".")
+    return "" if isinstance(stated.get(section, {}).get(name), str) else f"write {value:g} mm"
 
 
 def durations(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
@@ -55,13 +88,11 @@ def durations(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
 
 
 def supply(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    section = config["supply"]
-    frequency = config["model"]["frequency"]
-    is_given = section != defaults["supply"] or stated.get("supply", section) != section
-    if "resonance" not in section and is_given:
-        remedy = "give the resonance (Hz) of the drive with its load, or remove the section supply"
-        yield f"supply.resonance is missing; {remedy}"
+    section, frequency = config["supply"], config["model"]["frequency"]
     if "resonance" not in section:
+        if section != defaults["supply"] or stated.get("supply", section) != section:
+            remedy = "give the resonance (Hz) of the drive with its load, or remove the section supply"
+            yield f"supply.resonance is missing; {remedy}"
         return
     resonance = f"supply.resonance = {section['resonance']!r} Hz"
     remedy = "give the resonance in which the drive with its load moves along the direction of vibration"
@@ -72,9 +103,8 @@ def supply(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     if section["force"] == "voltage²" and FARTHEST * section["resonance"] < frequency:
         yield f"{resonance} is less than 1/{FARTHEST:g} of model.frequency = {frequency!r} Hz; {remedy}"
     if section["frequency"] >= frequency:
-        yield (
-            f"supply.frequency = {section['frequency']!r} Hz is not below model.frequency = {frequency!r} Hz; give less"
-        )
+        key = f"supply.frequency = {section['frequency']!r} Hz"
+        yield f"{key} is not below model.frequency = {frequency!r} Hz; give less"
 
 
 def calibration(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
@@ -120,12 +150,9 @@ def excitation(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     if "rate" in section and "time" in section.get("columns", {}):
         yield "excitation has both rate and columns.time; state one of them"
         return
-    model, stated_model = config["model"], stated.get("model") or {}
-    # Also if it is the default.
-    measured = {
-        name: model[name] for name in faults.DRIVE if name in stated_model or model[name] != defaults["model"][name]
-    }
-    settings = {**section, "inclination": model["inclination"], **measured}
+    model = config["model"]
+    given = {name: model[name] for name in faults.DRIVE if is_given(name, config, defaults, stated)}
+    settings = {**section, "inclination": model["inclination"], **given}
     try:
         text = csv_table.read_text(path, "excitation.measured", reading.MOST_BYTES)
         table = csv_table.parse(text, path, reading.wanted(section), reading.HEADER_UNITS, reading.EXAMPLE)
@@ -143,17 +170,9 @@ def bodies(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         )
 
 
-def millimetres(stated: dict, key: str, value: float) -> str:
-    """The remedy for a length that is a number without a unit; empty for one with a unit."""
-    section, _, name = key.partition(".")
-    has_unit = isinstance((stated.get(section) or {}).get(name), str)
-    return "" if has_unit else f"write {value:g} mm"
-
-
 def drive(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
     """A velocity that no design of the search can reach."""
-    section = config["drive"]
-    bounds = config["drive"]["bounds"]
+    section, bounds = config["drive"], config["drive"]["bounds"]
     slowest = {**config["model"], "frequency": bounds["frequency"][0], "angle": bounds["angle"][0]}
     speed = measurements.plate_velocity(bounds["acceleration"][1], slowest)
     # On a track that descends, gravity may add to the velocity.
@@ -165,30 +184,4 @@ def drive(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         )
 
 
-def track(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    """A track that is shorter than a part, or that no part can pass in time: lengths in millimetres."""
-    length, longest, axis = config["transit"]["length"], config["transit"]["longest"], transit_axis(config)
-    for key in ("body.length", "advice.part_length"):
-        section, _, name = key.partition(".")
-        if (part := config.get(section, {}).get(name, 0.0)) > length:
-            remedy = millimetres(stated, key, part) or "give a longer transit.length"
-            yield f"{key} = {part!r} m is longer than the track, transit.length = {length!r} m; {remedy}"
-    has_gaps = isinstance(axis, dict) and not {"start", "stop"} <= axis.keys()  # see transit_amplitudes
-    # On a fast drive, no part may pass the default track; a sweep has no track.
-    if has_gaps or length == defaults["transit"]["length"]:
-        return
-    speed = measurements.plate_velocity(max(ends(axis)), config["model"])
-    if length <= AMPLITUDE_ERROR * speed * longest:
-        return
-    from conveyor_pipeline.common.steepness import is_steep  # NumPy, see excitation
-
-    # Parts may slide down a steep track faster than the plate ever moves.
-    if not (config["model"]["inclination"] < 0.0 and is_steep(config["model"])):
-        reason = f"because the plate moves at most at {speed:.3g} m/s"
-        remedy = f"{millimetres(stated, 'transit.length', length) or 'give a shorter track'}, or give more time"
-        if speed < NO_MOTION:
-            reason, remedy = "because the plate does not move along the track", "give a smaller model.angle"
-        yield f"transit.length = {length!r} m is too long for transit.longest = {longest!r} s, {reason}; {remedy}"
-
-
-CHECKS = (transit_amplitudes, numbers_of_runs, durations, supply, calibration, excitation, bodies, drive, track)
+CHECKS = (operating, transit, durations, supply, calibration, excitation, bodies, drive)

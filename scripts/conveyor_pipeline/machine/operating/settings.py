@@ -193,7 +193,7 @@ def remedies_for_amplitudes(config: dict, stated: dict) -> dict[str, str]:
     """
     section = "transit" if "acceleration" in config["transit"] else "operating"
     key = f"{section}.acceleration"
-    if "acceleration" in (stated.get(section) or {}).get("dimensionless", {}):
+    if "acceleration" in stated.get(section, {}).get("dimensionless", {}):
         key = f"{section}.dimensionless.acceleration"
     if isinstance(transit_axis(config), list):
         return {"key": key, "start": f"add a smaller value to `{key}`", "stop": f"add a larger value to `{key}`"}
@@ -238,7 +238,7 @@ MEASURED_DRIVE = {"acceleration", "frequency", "angle", "phase_shift", "harmonic
 
 def uses_recording(config: dict, stated: dict) -> bool:
     """Whether the model has the drive of the recording that the config names, or the config names none."""
-    return "measured" not in config["excitation"] or {*(stated.get("model") or {})} >= MEASURED_DRIVE
+    return "measured" not in config["excitation"] or {*stated.get("model", {})} >= MEASURED_DRIVE
 
 
 def parts_settings(config: dict, without: Iterable[str] = ()) -> dict:
