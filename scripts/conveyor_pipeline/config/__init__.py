@@ -41,18 +41,14 @@ def name_measurements(config: dict, files: Sequence[str | Path], contents: list[
     for section, key in MEASURED_FILES.items():
         name = config[section].get(key)
         for file, content in zip(files, contents, strict=True):
-            overlay_section = content.get(section)
-            if isinstance(overlay_section, dict) and isinstance(name, str) and overlay_section.get(key) == name:
-                config[section][key] = os.path.join(os.path.dirname(file), overlay_section[key])
+            if name and (content.get(section) or {}).get(key) == name:
+                config[section][key] = os.path.join(os.path.dirname(file), name)
 
 
 def check_one_conveyor(files: Sequence[str | Path], contents: list[dict]) -> None:
     """ConfigError for overlays of two conveyors, which would become one mixed conveyor."""
-    named = {
-        str(content["prefix"]): file
-        for file, content in zip(files, contents, strict=True)
-        if content.get("prefix") and content.get("model")
-    }
+    overlays = zip(files, contents, strict=True)
+    named = {content["prefix"]: file for file, content in overlays if content.get("prefix") and content.get("model")}
     if len(named) > 1:
         conveyors = " and ".join(f"{name} ({file})" for name, file in named.items())
         raise ConfigError(
@@ -82,10 +78,9 @@ def load_config(overlay_files: Sequence[str | Path], config: dict) -> Loaded:
     stated = merge(*overlays, config)
     if errors := problems(whole, paper, stated):
         raise ConfigError(name_lines(errors, overlay_files, config))
-    for section, key in MEASURED_FILES.items():
-        if key not in whole[section]:
-            whole["figures_on_request"].pop(section, None)
+    measured = [section for section, key in MEASURED_FILES.items() if key in whole[section]]
+    for section in MEASURED_FILES.keys() - measured:
+        whole["figures_on_request"].pop(section, None)
     merged = canonical(whole)
-    has_measurements = any(key in whole[section] for section, key in MEASURED_FILES.items())
-    is_paper = not has_measurements and not any(other_models(merged, paper))
+    is_paper = not measured and not any(other_models(merged, paper))
     return Loaded(with_tighter(by_methods(merged)), merged, is_paper, stated)
