@@ -1,18 +1,22 @@
 """Snakemake for tests: imported once, after which each command runs in a fork of this process.
 
-Importing Snakemake takes most of the processor time of a dry run. Each line of standard input is a command in JSON;
-each line of standard output is its exit status.
+Importing Snakemake takes most of the processor time of a dry run, and importing packages most of the time of a small
+job that runs in Snakemake's process. Each line of standard input is a command in JSON; each line of standard output is
+its exit status.
 """
 
 import gc
+import importlib
 import json
 import os
 import sys
 
-# Snakemake imports some packages when a command needs them.
-import nbformat  # noqa: F401
-import smart_open  # noqa: F401
+import numba
 from snakemake.cli import main, parse_args
+
+# Snakemake imports the first two when a command needs them, and jobs import the others.
+LATE = ("nbformat", "smart_open", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_pdf")
+LATE += ("matplotlib.pyplot", "pandas", "pyarrow.parquet", "scipy.integrate", "scipy.optimize")
 
 
 def run(arguments: list[str], folder: str, environment: dict[str, str], output: str) -> int:
@@ -34,6 +38,9 @@ def run(arguments: list[str], folder: str, environment: dict[str, str], output: 
 
 
 parse_args([])  # imports the plugins
+for name in LATE:
+    importlib.import_module(name)
+numba.njit(lambda: 0)()  # imports the rest of numba
 # A fork copies the memory that it writes to: neither its garbage collector nor its end may touch what it shares.
 gc.freeze()
 for line in sys.stdin:
