@@ -82,7 +82,7 @@ def random_parameters(n, seed, orders=()):
 @compiled
 def fill(phases, values):
     for i in range(len(phases)):
-        values[i] = sine_and_cosine(phases[i])
+        values[i, 0], values[i, 1] = sine_and_cosine(phases[i])
 
 
 @pytest.mark.parametrize("size", [1.0, 1e3, 1e6, 1e9])
