@@ -177,11 +177,11 @@ def test_overlays_can_be_checked_without_snakemake(tmp_path):
 
 
 def test_the_whole_config_is_shown_with_origins(tmp_path):
-    """Also of values that YAML repeats through an anchor."""
+    """Also of values that YAML repeats through an anchor, and of texts with a unit."""
     file = tmp_path / "mine.yaml"
     file.write_text(
         "prefix: mine\nsweeps:\n  heights:\n    axes: {z0: {num: 41}}\n  one: {axes: {z0: [0, 1e-4]}}\n"
-        "model:\n  friction: 0.2\n  <<: [{damping: 0.2, friction: 0.3}, {damping: 0.4}]\n"
+        "model:\n  friction: 0.2\n  <<: [{damping: 0.2, friction: 0.3}, {damping: 0.4}]\n  angle: 20 deg\n"
     )
     show = [*CHECK, "--show", str(file)]
     run = subprocess.run(show, cwd=ROOT, env=WITH_SCRIPTS, capture_output=True, text=True, check=True)
@@ -190,6 +190,7 @@ def test_the_whole_config_is_shown_with_origins(tmp_path):
     assert shown["sweeps.heights.axes.z0.num"] == f"41    # {file}:4"
     assert shown["model.friction"] == f"0.2    # {file}:7"
     assert shown["model.damping"] == f"0.2 N s/m    # {file}:8"
+    assert shown["model.angle"] == f"0.3490658503988659 rad    # {file}:9: 20 deg"
     assert shown["sweeps.one.axes.z0"] == f"[0.0, 0.0001] m    # {file}:5"
     assert re.fullmatch(r"0\.0004 m    # config/defaults/paper/sweeps\.yaml:\d+", shown["sweeps.heights.axes.z0.stop"])
     assert re.fullmatch(

@@ -120,14 +120,6 @@ def test_a_number_that_is_a_text_to_yaml_1_1_is_no_quantity(text):
     assert canonical(merged(CONFIG, overlay))["model"]["stiffness"] == float(text)
 
 
-def test_origins_show_the_text(tmp_path):
-    file = tmp_path / "mine.yaml"
-    file.write_text("prefix: mine\nmodel: {angle: 20 deg}\n")
-    command = [sys.executable, "-m", "conveyor_pipeline.config", "--show", str(file)]
-    shown = subprocess.run(command, check=True, cwd=ROOT / "scripts", capture_output=True, text=True).stdout
-    assert f"model.angle = 0.3490658503988659 rad    # {file}:2: 20 deg" in shown.replace("../", "")
-
-
 def test_the_origin_of_a_converted_value_is_its_dimensionless_one():
     lines = {("operating", "dimensionless", "height"): "defaults:3", ("operating",): "mine:1", ("transit",): "mine:2"}
     assert origin_of(("operating", "height"), lines) == "defaults:3"

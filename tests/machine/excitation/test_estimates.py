@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -66,13 +67,18 @@ def random_drive(random: np.random.Generator, kind: str) -> Drive:
 KINDS = ("plain", "short", "colour", "jitter", "random times", "gap", "steps", "same phases", "drift")
 
 
+@cache
+def estimated(kind: str) -> list[tuple[Drive, dict]]:
+    """Twelve random drives with their estimates."""
+    random = np.random.default_rng(17)
+    drives = [random_drive(random, kind) for _ in range(12)]
+    return [(drive, estimate(drive, seed)[0]) for seed, drive in enumerate(drives)]
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_intervals_contain_the_true_values(kind):
-    random = np.random.default_rng(17)
     inside = defaultdict(list)
-    for seed in range(12):
-        drive = random_drive(random, kind)
-        found, _ = estimate(drive, seed)
+    for drive, found in estimated(kind):
         for name, value in drive.truth().items():
             error = found[name][0] - value
             error = wrap(error) if "phase" in name else error
@@ -84,10 +90,8 @@ def test_intervals_contain_the_true_values(kind):
 @pytest.mark.parametrize("kind", ["plain", "short", "colour"])
 def test_intervals_are_not_too_wide(kind):
     """The mean square of the errors over the standard errors would be 1 for perfect ones."""
-    random, scaled = np.random.default_rng(23), []
-    for seed in range(12):
-        drive = random_drive(random, kind)
-        found, _ = estimate(drive, seed)
+    scaled = []
+    for drive, found in estimated(kind):
         truth = {name: value for name, value in drive.truth().items() if "_" not in name}
         scaled += [((found[name][0] - value) / found[name][1]) ** 2 for name, value in truth.items()]
     assert 0.4 < np.mean(scaled) < 1.6
@@ -110,7 +114,7 @@ def test_noise_near_a_harmonic_is_the_error_of_this_harmonic():
 @pytest.mark.parametrize("kind", ["plain", "short", "colour", "steps", "same phases"])
 def test_noise_makes_no_harmonics(kind):
     random = np.random.default_rng(29)
-    for seed in range(20):
+    for seed in range(10):
         drive = replace(random_drive(random, kind), harmonics=())
         assert not estimate(drive, seed)[1]["above_noise"].any()
 

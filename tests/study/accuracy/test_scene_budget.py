@@ -30,11 +30,11 @@ def test_a_practically_rigid_part_bounces_as_high_in_nearly_no_time(exponent, sp
     assert hard.duration < 0.005 * found.duration
 
 
-ENTRIES = {"sweeps/some": SETTINGS, "sweeps/other": SETTINGS | {"duration": 0.2}, "sweeps/third": SETTINGS}
+ENTRIES = {"sweeps/some": SETTINGS, "sweeps/other": SETTINGS | {"duration": 0.2}}
 
 
 def test_budgets_do_not_depend_on_threads():
-    drawn = {"fig": ["sweeps/other", "sweeps/some"], "schematic": [], "last": ["sweeps/third"]}
+    drawn = {"fig": ["sweeps/other"], "schematic": [], "last": ["sweeps/some"]}
     one, three = (scene_budget.make(BUDGET, ENTRIES, drawn, threads=n) for n in (1, 3))
     pd.testing.assert_frame_equal(pd.DataFrame(one["scene_budget"]), pd.DataFrame(three["scene_budget"]))
     times, others = (pd.DataFrame(made["budget_times"]) for made in (one, three))
