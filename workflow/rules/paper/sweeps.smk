@@ -23,7 +23,7 @@ rule sweeps:
         "../../../scripts/conveyor_pipeline/make.py"
 
 
-use rule sweeps as shards with:
+rule shards:
     """Some rows of a sweep of several jobs."""
     output:
         sweeps=table("shards/{name}/{shard}"),
@@ -35,8 +35,14 @@ use rule sweeps as shards with:
         name=one_of(config["sweeps"]),
         shard=r"0|[1-9]\d*",
     threads: THREADS
+    resources:
+        mem_mb=lambda wildcards, attempt: 1000 * attempt,
+        runtime=lambda wildcards, attempt: 120 * attempt,
     params:
+        **stage("conveyor_pipeline.paper.sweeps.shards"),
         settings=settings_of_shard,
+    script:
+        "../../../scripts/conveyor_pipeline/make.py"
 
 
 rule joined_sweeps:
