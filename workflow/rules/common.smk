@@ -100,13 +100,13 @@ def listed_figures(*names):
     return [name for name in names if name in config["figures"]]
 
 
-def figure_files(figures=None, ending="pdf"):
+def figure_files(figures=config["figures"], ending="pdf"):
     """The files of some figures, or of all figures that are made without an explicit target."""
-    return [figure_file(figure, ending) for figure in (config["figures"] if figures is None else figures)]
+    return [figure_file(figure, ending) for figure in figures]
 
 
-def caption_files(figures=None):
-    return [result(f"captions/{figure}.rst") for figure in (config["figures"] if figures is None else figures)]
+def caption_files(figures=config["figures"]):
+    return [result(f"captions/{figure}.rst") for figure in figures]
 
 
 def one_of(names):
@@ -179,11 +179,6 @@ def figure_modules(figure, part="figures"):
     return [f"{package.replace('.', '/')}/{figure}"] if package else []
 
 
-def caption_scripts(wildcards):
-    """The script that computes numbers of a caption, if there is one."""
-    return figure_modules(wildcards.figure, "caption_numbers")
-
-
 def tables_of_figure(wildcards):
     """The tables that a figure draws, by their roles; an error for a figure that this config cannot make."""
     if reason := NO_FIGURES.get(wildcards.figure):
@@ -193,8 +188,9 @@ def tables_of_figure(wildcards):
 
 def tables_of_caption(wildcards):
     """The tables that a figure draws, and further tables of its caption, by their roles."""
-    further = FIGURES.get(wildcards.figure, {}).get("caption_tables", {})
-    return tables_of_figure(wildcards) | {role: table(reference) for role, reference in further.items()}
+    tables = tables_of_figure(wildcards)
+    further = FIGURES[wildcards.figure].get("caption_tables", {})
+    return tables | {role: table(reference) for role, reference in further.items()}
 
 
 def section_in_report(wildcards):

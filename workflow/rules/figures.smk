@@ -45,7 +45,10 @@ rule caption:
         figure=one_of([*FIGURES, *NO_FIGURES]),
     localrule: True
     params:
-        **stage("conveyor_pipeline.figures.captions", scripts=caption_scripts),
+        **stage(
+            "conveyor_pipeline.figures.captions",
+            scripts=lambda wildcards: figure_modules(wildcards.figure, "caption_numbers"),
+        ),
         settings=lambda wildcards: settings_of_figure(wildcards.figure),
         figure="{figure}",
         paper=not PREFIX,
