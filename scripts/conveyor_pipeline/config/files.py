@@ -4,7 +4,6 @@ Snakemake reads the files of --configfile as YAML 1.1, which keeps the last of t
 as 90, and 1e-8 as text. So overlays are read again here.
 """
 
-import itertools
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -52,12 +51,13 @@ def find_lines(file: str | Path) -> dict[tuple[str | int, ...], str]:
     """FILE:LINE of the keys and list items of a config file, by their paths."""
 
     def lines_below(node: Node, path: tuple) -> Iterator[tuple[tuple, str]]:
-        # Merged keys (<<) first, because the node's own ones replace them.
-        pairs = sorted(node.value, key=lambda pair: pair[0].value != "<<") if isinstance(node, MappingNode) else ()
-        items = enumerate(node.value) if isinstance(node, SequenceNode) else ()
-        named = itertools.chain(
-            ((key.value, key, value) for key, value in pairs), ((place, item, item) for place, item in items)
-        )
+        named = []
+        if isinstance(node, MappingNode):
+            # Merged keys (<<) first, because the node's own ones replace them.
+            pairs = sorted(node.value, key=lambda pair: pair[0].value != "<<")
+            named = [(key.value, key, value) for key, value in pairs]
+        elif isinstance(node, SequenceNode):
+            named = [(place, item, item) for place, item in enumerate(node.value)]
         for part, marked, value in named:
             if part == "<<":
                 # Of several mappings, the first one that has a key counts.
