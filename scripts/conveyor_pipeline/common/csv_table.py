@@ -268,22 +268,17 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
     if faults:
         raise TableError(faults)
     columns = range(widths.max(initial=len(names)))
-    options = {"header": None, "names": columns, "dtype": str, "keep_default_na": False}
-    try:
-        fields = pd.read_csv(
-            io.StringIO("\n".join(line for _, line in rows)),
-            sep=r"\s+" if separator == " " else separator,
-            skipinitialspace=True,
-            index_col=False,
-            **options,
-        )
-    except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        fields = None
-        reason = str(error)
-    if rows and (fields is None or len(fields) != len(rows)):
-        reason = reason if fields is None else "a quote is not closed"
-        raise TableError([f"{path}:{lines[-1]}: is not CSV ({reason}); export the table as CSV"])
-    fields = pd.DataFrame(columns=columns, dtype=str) if fields is None else fields
+    fields = pd.DataFrame(columns=columns, dtype=str)
+    if rows:
+        options = {"header": None, "names": columns, "dtype": str, "keep_default_na": False, "index_col": False}
+        options |= {"sep": r"\s+" if separator == " " else separator, "skipinitialspace": True}
+        try:
+            fields = pd.read_csv(io.StringIO("\n".join(line for _, line in rows)), **options)
+            reason = "a quote is not closed"
+        except (pd.errors.ParserError, pd.errors.EmptyDataError) as error:
+            reason = str(error)
+        if len(fields) != len(rows):
+            raise TableError([f"{path}:{lines[-1]}: is not CSV ({reason}); export the table as CSV"])
     fields = fields[range(len(names))].apply(lambda column: column.str.strip())
     try:
         signs = number_signs([fields[column] for column in fields], separator)
