@@ -190,18 +190,6 @@ def known_tables(config: dict, defaults: dict) -> list[str]:
     return [*references(by_methods(config)), *(name for name in read if name.split("/")[0] not in NAMED)]
 
 
-def unknown_tables(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    """Tables of figures that the config does not have."""
-    tables = known_tables(config, defaults)
-    yield from faults_of_names(
-        (f"{section}.{name}.{key}.{role}", table, tables)
-        for section in FIGURES
-        for name, entry in config[section].items()
-        for key in ("tables", "caption_tables")
-        for role, table in entry.get(key, {}).items()
-    )
-
-
 def faults_of_names(used: Iterable[tuple[str, str, Iterable[str]]]) -> Iterator[str]:
     """Unknown names; `used` has the key, the name, and the known names."""
     for key, name, known in used:
@@ -210,40 +198,28 @@ def faults_of_names(used: Iterable[tuple[str, str, Iterable[str]]]) -> Iterator[
 
 
 def figures(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    tables = by_methods(config)
+    """Figures without files, tables that the config does not have, and tables and settings that no plot script uses."""
+    tables, entries = known_tables(config, defaults), by_methods(config)
     for section in FIGURES:
         for figure, entry in config[section].items():
+            key = f"{section}.{figure}"
             if not (package_of(figure) and caption_file(figure)):
                 files = f"scripts/conveyor_pipeline/FLOOR/figures/{figure}.py and {figure}.rst"
-                yield f"{section}.{figure} has no files {files}; a figure needs a plot script and a caption of its name"
+                yield f"{key} has no files {files}; a figure needs a plot script and a caption of its name"
             for reference in entry["tables"].values():
-                if entry["needs"] == "feeding" and entry_of(tables, reference).get("needs") == "vertical":
-                    yield f"{section}.{figure} needs feeding, but {reference} has needs: vertical; remove it there"
+                if entry["needs"] == "feeding" and entry_of(entries, reference).get("needs") == "vertical":
+                    yield f"{key} needs feeding, but {reference} has needs: vertical; remove it there"
+            for part in ("tables", "caption_tables"):
+                used = entry.get(part, {}).items()
+                yield from faults_of_names((f"{key}.{part}.{role}", table, tables) for role, table in used)
+            for part in ("tables", "caption_tables", "settings", "marks"):
+                known = defaults[section].get(figure, entry).get(part, {})
+                for name in entry.get(part, {}):
+                    if name not in known:
+                        yield f"{key}.{part}.{name} is an unknown key; {suggest_name(name, known)}"
 
 
-def unused_keys(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
-    """Tables and settings of figures that the default config does not have: no plot script uses them."""
-    for section in FIGURES:
-        for figure in config[section].keys() & defaults[section]:
-            for key in ("tables", "caption_tables", "settings", "marks"):
-                configured, known = (entries[figure].get(key, {}) for entries in (config[section], defaults[section]))
-                for name in (name for name in configured if name not in known):
-                    yield f"{section}.{figure}.{key}.{name} is an unknown key; {suggest_name(name, known)}"
-
-
-CHECKS = (
-    prefix,
-    measured_files,
-    methods,
-    axes,
-    friction,
-    exponent,
-    sweeps,
-    steps,
-    unknown_tables,
-    figures,
-    unused_keys,
-)
+CHECKS = (prefix, measured_files, methods, axes, friction, exponent, sweeps, steps, figures)
 
 
 @cache
