@@ -7,9 +7,8 @@ import pandas as pd
 import pytest
 from project import ROOT, si_config
 
-from conveyor_pipeline.common import pareto
 from conveyor_pipeline.config.tables import TABLES
-from conveyor_pipeline.machine.operating import drive, drive_page, populations, transit
+from conveyor_pipeline.machine.operating import drive, drive_page, pareto, populations, transit
 
 SETTINGS = {**TABLES["operating/drive_front"](si_config()), "starts": 24, "longest": 2.0}
 TEMPLATE = (ROOT / "workflow/rules/machine/drive.md").read_text()

@@ -18,13 +18,13 @@ from conveyor.elementary import exp, log, sin
 from conveyor.linear_algebra import length
 from conveyor.packing import plate_peaks
 from conveyor.progress import progress_bar
-from conveyor_pipeline.common import fields, grid, pareto
+from conveyor_pipeline.common import fields, grid
+from conveyor_pipeline.machine.operating import pareto
 from conveyor_pipeline.machine.operating.parts import population
 from conveyor_pipeline.machine.operating.transit import follow, summarize_populations
 
-DRAWN = (
-    8  # random designs of the first generation, in units of the population, because few of them meet all constraints
-)
+# Random designs of the first generation, in units of the population, because few of them meet all constraints.
+DRAWN = 8
 # Relative growth of the hypervolume in the last quarter of the generations up to which a search has settled.
 SETTLED = 0.02
 SEEDS = (1, 2)  # two searches; each must find nearly the front of both

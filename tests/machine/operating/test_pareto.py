@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from conveyor_pipeline.common import pareto
+from conveyor_pipeline.machine.operating import pareto
 
 
 def test_the_front_keeps_the_non_dominated_points():
