@@ -12,8 +12,8 @@ from .analysis.attractors.attractor_table import ChaoticSets
 from .analysis.attractors.identity import Attractor, Attractors
 from .columns import Columns
 from .ensemble import sweep
-from .packing import as_rows, as_table, check_row, parameter_table, plate_peaks
-from .parameters import DEFAULT_TOLERANCE, LAST
+from .packing import as_table, check_row, plate_peaks
+from .parameters import DEFAULT_TOLERANCE, LAST, RANGES, UNITS
 from .progress import progress_bar
 from .solver import contact
 from .solver.model import FREQUENCY, Conveyor
@@ -92,20 +92,22 @@ def attractors_of_row(row: np.ndarray, samples: int, options: dict[str, Any]) ->
 def with_unknown(known: Attractors, labelled: Columns) -> tuple[Attractors, np.ndarray]:
     """The attractors and those that the labels of n trajectories add to them, and the number of each one's, (n,)."""
     grown, numbers = known._replace(found=list(known.found)), labelled.attractor.copy()
-    for k in np.flatnonzero(numbers == identity.UNKNOWN):
+    unknown = np.flatnonzero(numbers == identity.UNKNOWN)
+    while len(unknown):
+        k, unknown = unknown[0], unknown[1:]
         label = labelled.select([k])
-        (numbers[k],) = identity.identify(grown, label)
+        state, period = np.column_stack([label.delta, label.v]), int(label.period[0])
+        new = Attractor(label.state[0], 0, None, state)
+        if period:
+            new = identity.orbit_attractor(known.conveyor, label.state[0], period, state[0])
+            delta, v = new.strobes[:1].T
+            # Where a motion approaches its orbit slowly, only the orbit tells that it is known.
+            (numbers[k],) = identity.identify(grown, Columns({**label, "delta": delta, "v": v}))
         if numbers[k] == identity.UNKNOWN:
-            state, period = np.column_stack([label.delta, label.v]), int(label.period[0])
-            new = Attractor(label.state[0], 0, None, state)
-            if period:
-                new = identity.orbit_attractor(known.conveyor, label.state[0], period, state[0])
-                delta, v = new.strobes[:1].T
-                # Where a motion approaches its orbit slowly, only the orbit tells that it is known.
-                (numbers[k],) = identity.identify(grown, Columns({**label, "delta": delta, "v": v}))
-            if numbers[k] == identity.UNKNOWN:
-                grown.found.append(new)
-                numbers[k] = len(grown.found) - 1
+            grown.found.append(new)
+            numbers[k] = len(grown.found) - 1
+            numbers[unknown] = identity.identify(grown, labelled.select(unknown))
+            unknown = unknown[numbers[unknown] == identity.UNKNOWN]
     return grown, numbers
 
 
@@ -200,19 +202,17 @@ def basin(
     >>> labels.state[:, 0].tolist()
     ['first', 'second', 'second']
     """
-    heights, speeds = np.atleast_1d(arguments.check_numbers("z", z), arguments.check_numbers("vz", vz))
+    heights = np.atleast_1d(arguments.check_array("z", z, *RANGES["z0"], UNITS["z0"]))
+    speeds = np.atleast_1d(arguments.check_array("vz", vz, *RANGES["vz0"], UNITS["vz0"]))
     for name, array in (("z", heights), ("vz", speeds)):
         if array.ndim > 1:
             raise ValueError(f"{name} must be a number or of shape (n,), got the shape {array.shape}")
+    if heights.size * speeds.size > arguments.MOST_VALUES:
+        raise ValueError(f"z and vz have {heights.size * speeds.size} points, more than {arguments.MOST_VALUES:g}")
     row = check_row("conveyor", conveyor)
-    try:
-        starts = as_rows(parameter_table(Conveyor(), z0=heights[:, None], vz0=speeds))
-    except ValueError as error:
-        raise ValueError(f"z and vz: {error}") from None
-    parameters = as_table(np.broadcast_to(row, (*starts.shape[:2], len(row))).copy())
-    for name, column in (("z0", heights[:, None]), ("vz0", speeds)):
-        parameters[name] = column
-    with progress_bar(total=1 + SAMPLES + starts[..., 0].size, label=progress) as shown:
+    parameters = np.full((heights.size, speeds.size), as_table(row))
+    parameters["z0"], parameters["vz0"] = heights[:, None], speeds
+    with progress_bar(total=1 + SAMPLES + parameters.size, label=progress) as shown:
         options = {"cycles": cycles, "tolerance": tolerance, "threads": threads, "progress": shown}
         sampled = attractors_of_row(row, SAMPLES, options)
         labelled = labels.classify(parameters.reshape(-1), attractors=sampled, **options)
@@ -221,4 +221,4 @@ def basin(
     added = with_velocities(known.found[count:], at_top, labelled, numbers - count, options["tolerance"])
     known = known._replace(found=sampled.found + [one._replace(share=0.0) for one in added])
     about = (column.reshape(parameters.shape) for column in (labelled.state, labelled.period, numbers))
-    return Basin(heights.astype(np.float64), speeds.astype(np.float64), *about, known)
+    return Basin(heights, speeds, *about, known)

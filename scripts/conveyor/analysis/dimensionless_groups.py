@@ -94,9 +94,12 @@ def length_and_speed_units(conveyor: Conveyor | np.ndarray) -> tuple[float, floa
     return length_scale(numbers), speed_scale(numbers)
 
 
-def distance(conveyor: Conveyor | np.ndarray, state: np.ndarray, others: np.ndarray) -> float:
-    """The least distance of a state (δ in m, v in m/s) from others, shape (…, 2), in g/ω² and g/ω; inf for none."""
-    return float((np.abs(others - state) / length_and_speed_units(conveyor)).max(axis=-1).min(initial=math.inf))
+def distance(conveyor: Conveyor | np.ndarray, states: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """The least distance of each state (δ in m, v in m/s), shape (…, 2), from others, shape (n, 2), in g/ω² and g/ω;
+    inf for none.
+    """
+    differences = np.abs(others - states[..., None, :]) / length_and_speed_units(conveyor)
+    return differences.max(axis=-1).min(axis=-1, initial=math.inf)
 
 
 def amplitude_of(conveyor: Conveyor | np.ndarray, ratio: float) -> float:

@@ -72,15 +72,31 @@ def find_reached_orbit(c, state, orbits, first, behind):
 
 
 @compiled
-def is_in_chaotic_set(state, chaotic, first, behind):
-    """Whether a state lies in a box of one of the chaotic sets from number `first` to that before `behind`."""
+def find_reached_set(state, chaotic, first, behind):
+    """The chaotic set, from number `first` to that before `behind`, in a box of which a state lies, or -1."""
     for k in range(first, behind):
         i = (state[0] - chaotic.low[k, 0]) / chaotic.size[k, 0]
         j = (state[1] - chaotic.low[k, 1]) / chaotic.size[k, 1]
         rows, columns = chaotic.cells[k].shape
         if 0.0 <= i < rows and 0.0 <= j < columns and chaotic.cells[k, int(i), int(j)]:
-            return True
-    return False
+            return k
+    return -1
+
+
+@compiled
+def find_reached(c, states, periods, is_chaos, attractors, numbers):
+    """Fill the number of the known orbit, or behind all orbits of the chaotic set, in which each state lies; else -1.
+
+    states : at the end of trajectories with these periods (0 for none) or in chaos
+    """
+    orbits = len(attractors.orbits.periods)
+    for i in range(len(states)):
+        numbers[i] = -1
+        if is_chaos[i]:
+            chaotic = find_reached_set(states[i], attractors.chaotic, 0, len(attractors.chaotic.low))
+            numbers[i] = orbits + chaotic if chaotic >= 0 else -1
+        elif periods[i] > 0:
+            numbers[i] = find_reached_orbit(c, states[i], attractors.orbits, 0, orbits)
 
 
 @compiled_inline
@@ -151,7 +167,7 @@ def check_convergence(c, state, flight, max_cycles, attractors, rows, past, coun
                 period = shorter
                 break
         return PERIODIC, period, longest_flight(past, n + 1, period)
-    counts[STAYED] = counts[STAYED] + 1 if is_in_chaotic_set(state, attractors.chaotic, rows[2], rows[3]) else 0
+    counts[STAYED] = counts[STAYED] + 1 if find_reached_set(state, attractors.chaotic, rows[2], rows[3]) >= 0 else 0
     if counts[STAYED] >= STAY:
         return IN_CHAOTIC_SET, 0, math.nan
     if n + 1 >= max_cycles:

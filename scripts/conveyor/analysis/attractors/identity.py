@@ -10,7 +10,7 @@ from .. import stroboscopic_map
 from ..bifurcations.periodic_orbits import ORBIT_TOLERANCE, Orbit, orbit_near
 from ..dimensionless_groups import distance
 from .attractor_table import AttractorTable
-from .convergence import find_reached_orbit, is_in_chaotic_set
+from .convergence import find_reached
 
 CLOSE = 1e-3  # states this close, in g/ω² and g/ω, belong to one orbit
 UNKNOWN = -1  # the number of an attractor that no sampled initial condition leads to
@@ -88,22 +88,15 @@ def identify(attractors: Attractors, labels: Columns) -> np.ndarray:
 
     labels : from `classify`, with the table of the attractors
     """
-    row, table, numbers = attractors.conveyor, attractors.table, np.full(labels.period.shape, UNKNOWN)
-    constants, orbits = contact.constants(row, ORBIT_TOLERANCE), len(table.orbits.periods)
-    for place in np.ndindex(numbers.shape):
-        state = np.array([labels.delta[place], labels.v[place]])
-        label, period = labels.state[place], labels.period[place]
-        number = find_reached_orbit(constants, state, table.orbits, 0, orbits) if period else UNKNOWN
-        if label == "chaos":
-            inside = (k for k in range(len(table.chaotic.low)) if is_in_chaotic_set(state, table.chaotic, k, k + 1))
-            number = orbits + next(inside, UNKNOWN - orbits)
-        # All motions without a known chaotic set, or without a label, count as one attractor.
-        for k, attractor in enumerate(attractors.found if number == UNKNOWN else ()):
-            if (
-                attractor.state == label
-                and attractor.period == period
-                and (not period or distance(row, state, attractor.strobes) < CLOSE)
-            ):
-                number = k
-        numbers[place] = number
-    return numbers
+    row, states = attractors.conveyor, np.stack([labels.delta, labels.v], axis=-1).reshape(-1, 2)
+    state, period = labels.state.ravel(), labels.period.ravel()
+    constants, numbers = contact.constants(row, ORBIT_TOLERANCE), np.empty(len(states), np.int64)
+    find_reached(constants, states, period, state == "chaos", attractors.table, numbers)
+    # All motions without a known chaotic set, or without a label, count as one attractor.
+    others = np.flatnonzero(numbers == UNKNOWN)
+    for k, attractor in enumerate(attractors.found):
+        alike = others[(state[others] == attractor.state) & (period[others] == attractor.period)]
+        if attractor.period:
+            alike = alike[distance(row, states[alike], attractor.strobes) < CLOSE]
+        numbers[alike] = k
+    return numbers.reshape(labels.period.shape)
