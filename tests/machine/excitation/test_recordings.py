@@ -585,6 +585,23 @@ def test_a_line_without_a_reading_is_not_to_be_deleted_where_lines_are_counted()
     assert "delete" not in fault
 
 
+@pytest.mark.parametrize("twice", [len(TIMES), 200])
+@pytest.mark.parametrize("stated", [{}, {"frequency": PURE.frequency}])
+def test_a_rate_that_may_count_repeated_lines_is_refused_with_what_to_do(twice, stated):
+    again = np.random.default_rng(3).choice(len(TIMES), twice, replace=False)
+    lines = np.sort(np.concatenate([np.arange(len(TIMES)), again]))
+    text, without = (
+        "\n".join(["x,z", *(f"{x:.4f},{z:.4f}" for x, z in READINGS[:, kept].T)])
+        for kept in (lines, np.arange(len(TIMES)))
+    )
+    fault = fault_of(text, rate=PURE.rate, **stated)
+    assert f"in {twice:,} lines; if excitation.rate = 1600 is the rate of the sensor, delete these lines" in fault
+    frequency = float(re.search(r"counts all lines, state model.frequency: ([\d.]+)", fault)[1])
+    assert frequency == pytest.approx(PURE.frequency * len(TIMES) / len(lines), rel=2e-3)
+    estimates(text, rate=PURE.rate, frequency=frequency)
+    assert_right(estimates(without, rate=PURE.rate))
+
+
 def test_times_too_coarse_for_the_rate_are_refused_and_a_rate_replaces_them():
     text = text_of(np.floor(TIMES), READINGS, digits=0)
     assert "state excitation.rate (Hz)" in fault_of(text)
@@ -705,6 +722,23 @@ def test_a_small_error_of_the_mount_is_part_of_the_standard_errors():
 def test_a_sensor_that_removes_gravity_is_accepted_and_the_table_says_so():
     _, _, _, quality = estimates(text_of(TIMES, READINGS - READINGS.mean(axis=1, keepdims=True)))
     assert not quality["gravity_found"]
+
+
+@pytest.mark.parametrize(("header", "unit"), [("time,x,z", None), ("time,x,z", "g"), ("time,x (g),z (g)", None)])
+def test_a_sensor_that_removes_gravity_needs_a_stated_unit(header, unit):
+    """Without gravity, nothing shows that readings of 3.7 are in g."""
+    readings = (READINGS - READINGS.mean(axis=1, keepdims=True)) / STANDARD_GRAVITY
+    text = text_of(TIMES, readings, header=header)
+    if unit or header != "time,x,z":
+        assert_right(estimates(text, unit=unit))
+    else:
+        assert "shows no gravity, from which its unit would follow; state excitation.unit" in fault_of(text, unit=unit)
+
+
+def test_a_mean_in_a_wrong_unit_is_not_taken_for_gravity():
+    """An offset of 6 mm/s² is 0.6 g if it is read in m/s²."""
+    readings = 1000.0 * (READINGS - READINGS.mean(axis=1, keepdims=True)) + 6.0
+    assert fault_of(text_of(TIMES, readings)).count("mine.csv") == 1
 
 
 SPELLINGS = {

@@ -524,6 +524,17 @@ def steadiness_faults(signal: Signal) -> Iterator[Fault]:
         )
 
 
+def repeat_faults(signal: Signal) -> Iterator[Fault]:
+    """A stated rate that may count lines or samples, if lines repeat the one before."""
+    rate, repeated = signal.settings.get("rate"), signal.recording.repeated
+    if rate and repeated and not signal.is_as_stated:
+        yield (
+            f"repeats the readings of the line before in {repeated:,} lines; if excitation.rate = {rate:g} is the rate "
+            f"of the sensor, delete these lines; if it counts all lines, state model.frequency: "
+            f"{signal.fitted.frequency:.5g}"
+        )
+
+
 def frequency_faults(signal: Signal) -> Iterator[Fault]:
     """A frequency other than the stated one, or one that no conveyor has."""
     frequency, stated = signal.fitted.frequency, signal.settings.get("frequency")
@@ -576,7 +587,9 @@ def unit_faults(signal: Signal) -> Iterator[Fault]:
     elif acceleration < LEAST_ACCELERATION:
         remedy = f"state another excitation.unit ({', '.join(UNITS)}; not a voltage), and record while the drive is on"
         yield f"{shown}; that moves no part: {remedy}"
-    if not fault and (fault := direction_fault(signal.recording, gravity, signal.settings)):
+    elif not gravity.present and not signal.recording.has_unit:
+        yield f"shows no gravity, from which its unit would follow; state excitation.unit ({', '.join(UNITS)})"
+    elif fault := direction_fault(signal.recording, gravity, signal.settings):
         yield fault
 
 
@@ -627,6 +640,7 @@ OF_SIGNAL = (
     (interpolation_faults,),
     (sensor_faults,),
     (subharmonic_faults,),
+    (repeat_faults,),
     (frequency_faults, sampling_faults),
     (phase_faults,),
     (clock_faults,),
