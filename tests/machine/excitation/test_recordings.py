@@ -1023,7 +1023,10 @@ def test_two_sensors_whose_noise_hides_their_difference_are_told_by_its_spread()
     )
 
 
-@pytest.mark.parametrize(("rate", "order"), [(1613.7, 9), (1600.0, 10)])
+# The last four rates are little above twice the frequency of the harmonic.
+@pytest.mark.parametrize(
+    ("rate", "order"), [(1613.7, 9), (1600.0, 10), (850.0, 8), (870.0, 8), (950.0, 9), (1130.0, 11)]
+)
 def test_a_weak_harmonic_of_high_order_is_no_second_sensor_and_cuts_nothing_off(rate, order):
     time, readings = sampled(rate, harmonics=((order, 0.03, 0.5, 0.03, 1.0),))
     found = estimates(text_of(time, readings))

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 MOST_ORDER = 20  # harmonics of higher orders move the plate by less than 1/400 of their share of the acceleration
-HIGHEST = 0.45  # frequency up to which harmonics are fitted, in units of the sampling rate: below 1/2
+HIGHEST = 0.49  # frequency up to which harmonics are fitted, in units of the sampling rate: below 1/2
 PADDING = 4  # the first estimate of the frequency is on a grid of 1/4 of the resolution 1/T
 BLOCK = 2**16  # samples whose design matrix is in memory at a time
 GAP = 6.0  # mean intervals between two samples from which on they have a gap between them
