@@ -21,14 +21,15 @@ SEPARATORS = (";", "\t", ",", " ")
 NUMBER = re.compile(r"[-+]?(\d[\d.,'\u00a0\u202f]*|[.,]\d+)([eE][-+]?\d+)?")
 # A clock time, also behind a date of any form, or of minutes and seconds alone; some write 12:30:05:250, and AM or PM.
 CLOCK = re.compile(
-    r"(?:(?:(?P<date>[-\d./]{6,10})[T ])?(?P<hours>\d{1,2}):)?(?P<minutes>\d{1,2}):(?P<seconds>\d{2}(?:[.,:]\d+)?)"
-    r"(?: ?(?P<half>[AP]M))?(?:Z|(?P<offset>[-+]\d{2}:?\d{2}))?",
+    r"(?:(?:(?P<date>[-\w./ ]{6,11})[T ])?(?P<hours>\d{1,2}):)?(?P<minutes>\d{1,2}):(?P<seconds>\d{2}(?:[.,:]\d+)?)"
+    r"(?: ?(?P<half>[AP]M))?(?: ?(?:Z|UTC|GMT|(?P<offset>[-+]\d{2}(?::?\d{2})?)))?",
     re.IGNORECASE,
 )
 # A unit behind a name: Time (ms), accel [g], and in a line of its own: (s), m/s^2; and as in DIN 461: t/ms.
 UNIT = re.compile(r"\s*/?\s*[(\[<{]([^()\[\]<>{}]*)[)\]>}]$")
 RATIO = re.compile(r"([^/\s]+)\s*/\s*(\S+)")
 RESTART = 10.0  # intervals by which a time goes back where another run begins
+RUNS = "another run, or an overflow of the clock, begins there; keep the lines of one run"
 HOUR, DAY = 3600.0, 86_400.0  # s
 EXCEL_LINE = re.compile(r'"?sep=."?')
 
@@ -81,22 +82,26 @@ class Table(NamedTuple):
         remedy = remedy_of_order(time)
         if remedy:  # once, because all lines have the same cause
             back = back[:1]
-        remedy = remedy or "sort the lines, or state excitation.rate (Hz) in place of the times"
+        rate = "state excitation.rate (Hz)"
+        others = {"": f"sort the lines, or {rate} in place of the times", RUNS: f"{RUNS}, or {rate} if it overflows"}
+        remedy = others.get(remedy, remedy)
         for row in back:
             faults.append((int(self.lines[row]), f"time = {texts[row]} is earlier than the line before; {remedy}"))
         return time, faults
 
 
 def remedy_of_order(time: Any) -> str:
-    """The remedy for times (s) of lines that are in reverse order, or of two runs; empty for other times."""
+    """The remedy for times (s) of lines that are in reverse order, or of several runs; empty for other times."""
     import numpy as np
 
     steps = np.diff(time)
     if np.count_nonzero(steps < 0.0) > np.count_nonzero(steps > 0.0):
         return "the last lines come first; reverse their order"
-    back, usual = steps[steps < 0.0], float(np.median(np.abs(steps))) if len(steps) else 0.0
-    if len(back) == 1 and 0.0 < RESTART * usual < -back[0]:
-        return "a second run, or an overflow of the clock, begins there; keep the lines before or behind it"
+    back = np.flatnonzero(steps < 0.0)
+    apart = RESTART * float(np.median(np.abs(steps))) if len(steps) else 0.0
+    begins = time[back + 1] <= np.minimum.accumulate(time)[back] + apart
+    if len(back) and begins.all() and 0.0 < apart < -steps[back].max():
+        return RUNS
     return ""
 
 
@@ -258,11 +263,15 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
         names, units_of = names[:-1], units_of[:-1]
     lines = np.array([number for number, _ in rows], dtype=np.int64)
     faults = []
-    for row in np.flatnonzero(widths != len(names)):
+    # Where most lines end before the last names, such as `Comment`, these columns are empty.
+    usual = min(int(np.median(widths)), len(names)) if rows else 0
+    shortest = len(names) if any(map(is_known, names[usual:])) else usual
+    for row in np.flatnonzero((widths != len(names)) & (widths != shortest)):
         ends_empty = widths[row] > len(names) and not any(split(rows[row][1], separator)[len(names) :])
         if not ends_empty and len(faults) < MOST_FAULTS:
             remedy = "leave no field out, and separate columns by semicolons if numbers have commas"
-            remedy = f"{DELETE}, the last one, which may be incomplete" if row == len(rows) - 1 else remedy
+            if row == len(rows) - 1 and widths[row] < len(names):
+                remedy = f"{DELETE}, the last one, which may be incomplete"
             values = f"{widths[row]} value{'s' if widths[row] != 1 else ''}"
             faults.append(f"{path}:{lines[row]}: has {values} for {len(names)} columns; {remedy}")
     if faults:
@@ -279,7 +288,7 @@ def parse(text: str, path: str | Path, is_known: Callable[[str], bool], units: I
             reason = str(error)
         if len(fields) != len(rows):
             raise TableError([f"{path}:{lines[-1]}: is not CSV ({reason}); export the table as CSV"])
-    fields = fields[range(len(names))].apply(lambda column: column.str.strip())
+    fields = fields[range(len(names))].fillna("").apply(lambda column: column.str.strip())
     try:
         signs = number_signs([fields[column] for column in fields], separator)
     except ValueError as error:
@@ -379,7 +388,7 @@ def clock_seconds(texts: Any) -> Any:
     is_afternoon = parts.half.str.upper() == "PM"
     hours = hours.where(parts.half.isna(), hours % 12 + 12 * is_afternoon)
     seconds = pd.to_numeric(parts.seconds.str.replace("[,:]", ".", regex=True))
-    offset = parts.offset.str.replace(":", "").fillna("+0000")
+    offset = parts.offset.str.replace(":", "").str.ljust(5, "0").fillna("+0000")
     ahead = HOUR * pd.to_numeric(offset.str[:3]) + 60.0 * pd.to_numeric(offset.str[0] + offset.str[3:])
     clock = HOUR * hours.fillna(0.0) + 60.0 * pd.to_numeric(parts.minutes) + seconds
     # A clock may change its offset from UTC, as where daylight saving begins.

@@ -498,9 +498,30 @@ def test_empty_rows_at_the_end_do_not_count():
     assert_right(estimates(text_of(TIMES, READINGS) + ",,\n,,\n"))
 
 
-def test_a_second_run_in_a_file_is_not_to_be_sorted():
-    text = text_of(np.concatenate([TIMES, TIMES]), np.hstack([READINGS, READINGS]))
-    assert "a second run, or an overflow of the clock, begins there" in fault_of(text)
+@pytest.mark.parametrize("runs", [2, 3])
+def test_another_run_in_a_file_is_not_to_be_sorted(runs):
+    fault = fault_of(text_of(np.tile(TIMES, runs), np.tile(READINGS, runs)))
+    assert fault.startswith("mine.csv:3202: ") and "\n" not in fault
+    assert "another run, or an overflow of the clock, begins there" in fault and "sort" not in fault
+
+
+def test_times_that_overflow_again_and_again_are_not_to_be_sorted():
+    """Microseconds in 16 bits."""
+    text = text_of(1e6 * TIMES % 2**16, READINGS, header="time (µs),x,z", digits=0)
+    assert "begins there; keep the lines of one run, or state excitation.rate" in fault_of(text)
+    assert_right(estimates(text, rate=PURE.rate))
+
+
+def test_buffers_in_the_wrong_order_are_to_be_sorted():
+    order = np.arange(len(TIMES)).reshape(-1, 16)
+    order[[10, 11]] = order[[11, 10]]
+    text = text_of(TIMES[order.ravel()], READINGS[:, order.ravel()])
+    assert "earlier than the line before; sort the lines" in fault_of(text)
+
+
+def test_a_last_line_with_too_many_values_is_not_called_incomplete():
+    text = text_of(TIMES, READINGS) + "2.0,1,5,9,8\n"
+    assert "has 5 values for 3 columns; leave no field out" in fault_of(text)
 
 
 def test_a_unit_behind_a_name_counts():
@@ -776,6 +797,23 @@ SPELLINGS = {
     "German dates": lambda lines: [
         lines[0],
         *(clock(line, "28.02.2026 23:59:{:09.6f}", "01.03.2026 00:00:{:09.6f}") for line in lines[1:]),
+    ],
+    "names of months": lambda lines: [
+        lines[0],
+        *(clock(line, "28-Feb-2026 23:59:{:09.6f}", "01-Mar-2026 00:00:{:09.6f}") for line in lines[1:]),
+    ],
+    "name of the time zone": lambda lines: [
+        lines[0],
+        *(clock(line, "28 Feb 2026 23:59:{:09.6f} UTC", "1 Mar 2026 00:00:{:09.6f} UTC") for line in lines[1:]),
+    ],
+    "hours of the time zone": lambda lines: [
+        lines[0],
+        *(clock(line, "2026-03-29 01:59:{:09.6f}+01", "2026-03-29 03:00:{:09.6f}+02") for line in lines[1:]),
+    ],
+    "comment on the first line": lambda lines: [
+        lines[0] + ",Comment",
+        lines[1] + ",first",
+        *lines[2:],
     ],
     "tabs and names of several words": lambda lines: [
         "Time (s)\tAcceleration X (m/s^2)\tAcceleration Z (m/s^2)",
@@ -1084,7 +1122,7 @@ def test_a_small_drift_between_the_axes_is_part_of_the_error():
 
 def test_a_second_run_is_refused_also_with_a_rate():
     text = text_of(np.tile(TIMES, 2), np.tile(READINGS, 2))
-    assert "a second run" in fault_of(text) and "a second run" in fault_of(text, rate=1600.0)
+    assert "another run" in fault_of(text) and "another run" in fault_of(text, rate=1600.0)
 
 
 @pytest.mark.parametrize(("name", "stated"), [("angle", 0.6), ("phase_shift", -0.2), ("phase_shift", 3.0)])
