@@ -56,6 +56,8 @@ def check_numbers(name: str, values: object) -> np.ndarray:
         array = np.asarray(values)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name} must be an array of numbers: {error}") from None
+    if np.ma.is_masked(values):
+        raise ValueError(f"{name} has masked values; leave them out")
     if array.dtype.kind not in "iuf" and (array.size or array.dtype.names):
         raise ValueError(f"{name} must be an array of numbers, got the type {array.dtype}")
     return array

@@ -395,6 +395,14 @@ def test_tables_of_parameters_are_checked(name, value, orbit):
             function_of(name)(**arguments_of(name, orbit) | {"parameters": table})
 
 
+@pytest.mark.parametrize("masked", [np.ma.array([40.0, 60.0], mask=[False, True]), np.ma.masked])
+def test_a_masked_value_is_no_number(masked):
+    with pytest.raises(ValueError, match=r"acceleration has masked values; leave them out$"):
+        parameter_table(Conveyor(), acceleration=masked)
+    whole = np.ma.array([40.0, 60.0], mask=False)
+    assert parameter_table(Conveyor(), acceleration=whole)["acceleration"].tolist() == [40.0, 60.0]
+
+
 def test_an_error_shows_no_unit_where_there_is_none():
     with pytest.raises(ValueError, match=r"friction = -1 must be a number in \[0, 10\]$"):
         Conveyor(friction=-1)
