@@ -629,6 +629,14 @@ def test_times_too_coarse_for_the_rate_are_refused_and_a_rate_replaces_them():
     assert_right(estimates(text, rate=PURE.rate))
 
 
+@pytest.mark.filterwarnings("error")
+def test_one_time_for_all_lines_is_refused_without_warnings():
+    """A spreadsheet shortens milliseconds since 1970."""
+    lines = [f"1.77260E+12,{x:.4f},{z:.4f}" for x, z in READINGS.T]
+    fault = fault_of("\n".join(["timestamp,x,z", *lines, ""]), time_unit="ms")
+    assert "and 3,198 further lines repeat the time of the line before" in fault
+
+
 @pytest.mark.parametrize(
     ("rate", "count", "limit"),
     [
