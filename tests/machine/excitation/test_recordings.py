@@ -629,6 +629,22 @@ def test_times_too_coarse_for_the_rate_are_refused_and_a_rate_replaces_them():
     assert_right(estimates(text, rate=PURE.rate))
 
 
+@pytest.mark.parametrize(("acceleration", "step", "noise"), [(8.0, 1.88, 0.02), (8.0, 1.88, 0.3), (4.0, 0.94, 0.02)])
+def test_steps_that_are_too_coarse_are_named(acceleration, step, noise):
+    """Samples seemed to be lost, or the angle of throw was wrong by a third."""
+    time, readings = sampled(1613.0, acceleration=acceleration, noise=noise, mount=0.0)
+    stepped = step * np.round(readings / step)
+    assert "different values in the column z; record again with a finer resolution" in fault_of(
+        text_of(time, stepped), mount=0.0
+    )
+
+
+def test_noise_makes_coarse_steps_finer():
+    time, readings = sampled(1613.0, acceleration=4.0, noise=0.3, mount=0.0)
+    values, errors, _, _ = estimates(text_of(time, 0.94 * np.round(readings / 0.94)), mount=0.0)
+    assert abs(values["angle"] - PURE.angle) < 3.0 * errors["angle"] < 0.03
+
+
 @pytest.mark.filterwarnings("error")
 def test_one_time_for_all_lines_is_refused_without_warnings():
     """A spreadsheet shortens milliseconds since 1970."""

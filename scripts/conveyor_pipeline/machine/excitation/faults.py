@@ -79,6 +79,8 @@ CHANCE_OF_FLAT = 0.01  # that the flattest wave looks cut off
 LINES, STRAIGHT, PIECES = 0.1, 3.0, 8
 VARIED = 33  # different phases, of 64
 COARSE = 20.0  # steps of the readings; with more noise, chance puts few samples on a line at any number of phases
+# Different values that show a wave, and the noise, in steps of the converter, that makes the steps finer.
+LEAST_VALUES, FINER = 6, 0.25
 # Readings that a slower channel holds: least share in each piece, and its product with the median of the other changes
 # in steps, which is about 0.3 for a wave and for noise, at any size of the steps.
 HELD, MOVING = 0.1, 2.0
@@ -243,6 +245,20 @@ def time_faults(recording: Recording) -> Iterator[Fault]:
     elif recording.rate_error > MOST_RATE_ERROR:
         rate = f"its rate is known to {100 * recording.rate_error:.2g} % only"
         yield f"has times that are rounded, or may be, so that {rate}; {remedy}"
+
+
+def step_faults(signal: Signal) -> Iterator[Fault]:
+    """Steps of the converter in which no wave can be seen, unless noise makes them finer."""
+    recording = signal.recording
+    for key, readings, quantum in zip(recording.columns, recording.readings, recording.quanta, strict=True):
+        noise = max(float((signal.fitted.residual**2).mean()) - quantum**2 / 12.0, 0.0)
+        values = round(float(np.ptp(readings)) / quantum) + 1
+        if values < LEAST_VALUES and noise < (FINER * quantum) ** 2:
+            yield (
+                f"has only {values} different values in the column {recording.names[key].lstrip('-')}; record again "
+                "with a finer resolution, or a smaller range of the sensor"
+            )
+            return
 
 
 def hold_faults(signal: Signal) -> Iterator[Fault]:
@@ -636,6 +652,7 @@ def stated_faults(signal: Signal) -> Iterator[Fault]:
 OF_TIMES = ((time_faults,), (gap_faults,))
 OF_SIGNAL = (
     (count_faults,),
+    (step_faults,),
     (hold_faults,),
     (interpolation_faults,),
     (sensor_faults,),
