@@ -769,17 +769,6 @@ def test_a_sensor_that_removes_gravity_is_accepted_and_the_table_says_so():
     assert not quality["gravity_found"]
 
 
-@pytest.mark.parametrize(("header", "unit"), [("time,x,z", None), ("time,x,z", "g"), ("time,x (g),z (g)", None)])
-def test_a_sensor_that_removes_gravity_needs_a_stated_unit(header, unit):
-    """Without gravity, nothing shows that readings of 3.7 are in g."""
-    readings = (READINGS - READINGS.mean(axis=1, keepdims=True)) / STANDARD_GRAVITY
-    text = text_of(TIMES, readings, header=header)
-    if unit or header != "time,x,z":
-        assert_right(estimates(text, unit=unit))
-    else:
-        assert "shows no gravity, from which its unit would follow; state excitation.unit" in fault_of(text, unit=unit)
-
-
 def test_a_mean_in_a_wrong_unit_is_not_taken_for_gravity():
     """An offset of 6 mm/s² is 0.6 g if it is read in m/s²."""
     readings = 1000.0 * (READINGS - READINGS.mean(axis=1, keepdims=True)) + 6.0

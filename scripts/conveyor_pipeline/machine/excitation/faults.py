@@ -603,8 +603,6 @@ def unit_faults(signal: Signal) -> Iterator[Fault]:
     elif acceleration < LEAST_ACCELERATION:
         remedy = f"state another excitation.unit ({', '.join(UNITS)}; not a voltage), and record while the drive is on"
         yield f"{shown}; that moves no part: {remedy}"
-    elif not gravity.present and not signal.recording.has_unit:
-        yield f"shows no gravity, from which its unit would follow; state excitation.unit ({', '.join(UNITS)})"
     elif fault := direction_fault(signal.recording, gravity, signal.settings):
         yield fault
 

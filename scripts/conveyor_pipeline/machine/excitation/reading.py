@@ -56,7 +56,6 @@ class Recording(NamedTuple):
     lines: np.ndarray  # of the file, shape (n,)
     names: dict[str, str]  # of the columns in the file, by `time`, `x`, …, with a minus for a reversed axis
     unit: str  # of the readings in the file, one of UNITS
-    has_unit: bool  # whether the config or the header states this unit
     time_unit: str  # of the times in the file, one of TIME_UNITS
     sampling: str = "stamped"  # how the times follow from the file; see sample_times.py
     repeated: int = 0  # lines that repeat the readings of the line before, and that are left out
@@ -253,7 +252,6 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
     pair = AXES if AXES[0] in names else SENSOR
     units = [table.units[places[key]] or unit_behind(names[key], "g|mg") for key in pair]
     unit, faults = unit_of(settings.get("unit"), units, UNITS, "unit")
-    has_unit = bool(settings.get("unit") or any(units))
     mount = settings["mount"]
     rate = settings.get("rate")
     if pair == AXES and mount != 0.0:
@@ -299,7 +297,7 @@ def parse(table: Any, settings: Mapping[str, Any]) -> Recording:
     accelerations = UNITS[unit] * np.array(readings)
     quanta = np.array([quantum(signal) for signal in accelerations])
     return Recording(
-        *(time, turn(accelerations, mount), pair, accelerations, quanta, lines, names, unit, has_unit, time_unit),
+        *(time, turn(accelerations, mount), pair, accelerations, quanta, lines, names, unit, time_unit),
         sampling="stamped" if rate is None else "rate",
         across=across,
     )
