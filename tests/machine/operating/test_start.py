@@ -260,6 +260,13 @@ def test_velocities_that_differ_count_unless_parts_slide_away(made):
     assert sentence not in page and "The track is too steep" in page
 
 
+@pytest.mark.parametrize(("stderr", "counts"), [(0.012, False), (0.004, True)])
+def test_medians_that_differ_by_less_than_two_standard_errors_do_not_count(stderr, counts):
+    """In chaos, medians over a few cycles differ by chance, whatever the way."""
+    ways = [{"jumping": 1.0, "velocity_50": median, "velocity_50_stderr": stderr} for median in (0.22, 0.25)]
+    assert start_page.is_faster(start_page.extremes(ways)) == counts
+
+
 def test_differences_within_the_sampling_error_do_not_count():
     ways = [{"jumping": 0.5}, {"jumping": 0.58}, {"jumping": None}]
     assert not start_page.depends(ways, 256)

@@ -49,7 +49,8 @@ def ways_at(aim: str, start: pd.DataFrame, motions: pd.DataFrame) -> list[dict]:
     falling = start[(start.aim == SLOWLY) & (start.way == DOWN)]
     nearest = falling.iloc[[(falling.acceleration - rows.acceleration.iloc[0]).abs().argmin()]]
     nearest = nearest.assign(way=WAYS[DOWN], repeating=np.nan)
-    ways = pd.concat([rows, nearest[["way", "velocity_05", "velocity_50", "jumping", "repeating", "failed"]]])
+    columns = ["way", "velocity_05", "velocity_50", "velocity_50_stderr", "jumping", "repeating", "failed"]
+    ways = pd.concat([rows, nearest[columns]])
     return ways.replace({np.nan: None}).to_dict("records")
 
 
@@ -73,9 +74,13 @@ def depends(ways: list[dict], parts: int) -> bool:
 
 
 def is_faster(extreme_ways: dict[str, dict]) -> bool:
-    """Whether the medians of `extremes` differ by more than FASTER."""
-    low, high = (extreme_ways[name]["velocity_50"] for name in ("slowest", "fastest")) if extreme_ways else (0.0, 0.0)
-    return high - low > FASTER * max(abs(low), abs(high))
+    """Whether the medians of `extremes` differ by more than FASTER and by more than their standard errors."""
+    if not extreme_ways:
+        return False
+    slow, fast = extreme_ways["slowest"], extreme_ways["fastest"]
+    low, high = slow["velocity_50"], fast["velocity_50"]
+    error = math.hypot(slow["velocity_50_stderr"] or 0.0, fast["velocity_50_stderr"] or 0.0)
+    return high - low > max(FASTER * max(abs(low), abs(high)), CERTAIN * error)
 
 
 def make(
