@@ -38,8 +38,9 @@ LONG_FLIGHT = 0.5
 CYCLES = 20_000
 # Trajectories that a thread takes at a time. The last ones leave lanes idle, so that many are better.
 TOGETHER = 8192
-# Rows of a group. Side by side, alike motions of neighbours take down to two thirds of the time of a mixture.
-NEIGHBOURS = 64
+# Rows of a group. Side by side, alike motions of neighbours take about three quarters of the time of a mixture. With
+# 64, the progress bar of a few hundred trajectories is uneven.
+NEIGHBOURS = 16
 
 
 def regular_state(flight: float) -> str:
