@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from conveyor import RANGES
 from conveyor_pipeline.common import csv_table
 from conveyor_pipeline.common.axes import count_values, ends
 from conveyor_pipeline.common.settings import check_span
@@ -130,9 +129,8 @@ def calibration(config: dict, defaults: dict, stated: dict) -> Iterator[str]:
         )
     try:
         text = csv_table.read_text(path, "calibration.measurements", measurements.MOST_BYTES)
-        known = measurements.wanted(RANGES)
-        table = csv_table.parse(text, path, known, measurements.HEADER_UNITS, measurements.EXAMPLE)
-        measurements.parse(table, {**section, "model": config["model"]}, RANGES)
+        table = csv_table.parse(text, path, measurements.wanted, measurements.HEADER_UNITS, measurements.EXAMPLE)
+        measurements.parse(table, {**section, "model": config["model"]})
     except csv_table.TableError as error:
         yield from error.faults
 

@@ -10,7 +10,6 @@ import pytest
 from project import ROOT, si_config
 from synthetic import csv_text, measure
 
-from conveyor.parameters import RANGES
 from conveyor_pipeline.common import csv_table
 from conveyor_pipeline.config.tables import settings_of
 from conveyor_pipeline.machine.calibration import model_check, page, prediction
@@ -68,7 +67,7 @@ def measured(factor=1.0, **undeclared):
     rows = measure(MODEL | CONTACT | undeclared, AMPLITUDES, SETTINGS, 0.02, np.random.default_rng(4), duration=0.3)
     rows = [(one, velocity * (factor if place % 2 else 1.0)) for place, (one, velocity) in enumerate(rows)]
     text = csv_text(rows, "synthetic", duration=0.3, before=0.3)
-    return parse(csv_table.parse(text, "mine.csv", wanted(RANGES), HEADER_UNITS, ""), SETTINGS, RANGES)
+    return parse(csv_table.parse(text, "mine.csv", wanted, HEADER_UNITS, ""), SETTINGS)
 
 
 @pytest.fixture(scope="module", autouse=True)

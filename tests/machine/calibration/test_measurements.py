@@ -7,7 +7,6 @@ import pytest
 import yaml
 from project import call_snakemake
 
-from conveyor.parameters import RANGES
 from conveyor_pipeline.common import csv_table
 from conveyor_pipeline.common.csv_table import TableError
 from conveyor_pipeline.config import load_config
@@ -22,8 +21,8 @@ HEAD = "acceleration,velocity"
 
 def parse(text, path="mine.csv", settings=None):
     """The measurements in the text of a file."""
-    table = csv_table.parse(text, path, wanted(RANGES), HEADER_UNITS, EXAMPLE)
-    return measurements.parse(table, settings or SETTINGS, RANGES)
+    table = csv_table.parse(text, path, wanted, HEADER_UNITS, EXAMPLE)
+    return measurements.parse(table, settings or SETTINGS)
 
 
 def read_text(path):

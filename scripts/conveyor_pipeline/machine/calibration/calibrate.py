@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from conveyor import RANGES, UNITS
+from conveyor import UNITS
 from conveyor.progress import progress_bar
 from conveyor_pipeline.common import csv_table, fields
 from conveyor_pipeline.machine.calibration.effort import SEARCHES, sizes_of
@@ -124,7 +124,7 @@ def calibrate(
 
 def make(measurements: str, settings: dict, *, threads: int = 1, progress: str | None = None) -> dict[str, dict]:
     """The tables from the text of the file of measurements."""
-    table = csv_table.parse(measurements, settings["measurements"], wanted(RANGES), HEADER_UNITS, EXAMPLE)
-    measured = parse(table, settings, RANGES)
+    table = csv_table.parse(measurements, settings["measurements"], wanted, HEADER_UNITS, EXAMPLE)
+    measured = parse(table, settings)
     settings = settings | sizes_of(settings["effort"])
     return calibrate(measured, settings, threads=threads, progress=progress)

@@ -7,11 +7,11 @@ import difflib
 import itertools
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from statistics import median
 from typing import Any, NamedTuple
 
-from conveyor.parameters import UNITS
+from conveyor.parameters import RANGES, UNITS
 
 # Columns beside the parameters of the model: unit, and the smallest and largest plausible value.
 COLUMNS = {
@@ -61,9 +61,9 @@ def first_comments(text: str) -> list[str]:
     return [comment for line in before if (comment := line.strip("# "))]
 
 
-def known_columns(parameters: Sequence[str], ranges: Mapping) -> dict[str, tuple[float, float]]:
+def known_columns(parameters: Sequence[str]) -> dict[str, tuple[float, float]]:
     """The admissible interval of each column; a row cannot have its own value of a searched parameter."""
-    model_ranges = {name: interval for name, interval in ranges.items() if name not in (*parameters, "static_friction")}
+    model_ranges = {name: interval for name, interval in RANGES.items() if name not in (*parameters, "static_friction")}
     return {**model_ranges, **{name: (low, high) for name, (_, low, high) in COLUMNS.items()}}
 
 
@@ -169,9 +169,9 @@ def height_faults(rows: list[Measurement], model: Mapping[str, Any]) -> list[tup
     return faults
 
 
-def wanted(ranges: Mapping) -> Callable[[str], bool]:
-    """A function that says whether the header of a column names a quantity of a measurement."""
-    return lambda header: re.split(r"[\s(\[]", header.strip().lower())[0] in (*COLUMNS, *ranges)
+def wanted(header: str) -> bool:
+    """Whether the header of a column names a quantity of a measurement."""
+    return re.split(r"[\s(\[]", header.strip().lower())[0] in (*COLUMNS, *RANGES)
 
 
 def read_values(table: Any, known: Mapping) -> tuple[dict[str, Any], list[tuple[int, str]]]:
@@ -189,13 +189,12 @@ def read_values(table: Any, known: Mapping) -> tuple[dict[str, Any], list[tuple[
     return columns, sorted(faults, key=lambda pair: pair[0])
 
 
-def parse(table: Any, settings: Mapping[str, Any], ranges: Mapping) -> list[Measurement]:
+def parse(table: Any, settings: Mapping[str, Any]) -> list[Measurement]:
     """The measurements in a table of common.csv_table, whose error names every fault with file and line.
 
     settings : `parameters`, which the measurements must determine, and the `model`, from which a row may differ
-    ranges : admissible interval of each parameter of the model; other modules import this one without the library
     """
-    known = known_columns(settings["parameters"], ranges)
+    known = known_columns(settings["parameters"])
     parameters = len(settings["parameters"])
     table = table._replace(names=[name.lower().strip() for name in table.names])
     if faults := list(header_faults(table.names, table.units, known)):
