@@ -174,7 +174,7 @@ def follow_map(
     state: np.ndarray,
     cycles: int,
     count: Callable[[int], object] = lambda cycles: None,
-) -> tuple[int, np.ndarray, np.ndarray]:
+) -> tuple[int, np.ndarray]:
     """Advance `state` by a number of cycles.
 
     A motion that returns to a state bit for bit repeats itself from then on, and is copied. Most settled motions do.
@@ -191,47 +191,37 @@ def follow_map(
     -------
     status : code of status.STATUS
     strobes : float64, shape (cycles, 2), δ and v after each cycle; NaN from a failure on
-    features : float64, shape (cycles, 5), see `advance`; NaN from a failure on
     """
-    strobes, features = np.full((cycles, 2), np.nan), np.full((cycles, FEATURES), np.nan)
-    status, airborne, harmonics = OK, 0.0, plate.count_harmonics(parameters)
+    strobes = np.full((cycles, 2), np.nan)
+    status, harmonics = OK, plate.count_harmonics(parameters)
     for begin in range(0, cycles, AT_ONCE):
-        part = slice(begin, begin + AT_ONCE)
-        status = fill_map(parameters, tolerance, harmonics, state, airborne, strobes[part], features[part])
+        part = strobes[begin : begin + AT_ONCE]
+        status = fill_map(parameters, tolerance, harmonics, state, part)
         if status != OK:
             break
-        airborne = float(features[part][-1, AIRBORNE])
-        count(len(strobes[part]))
-    return status, strobes, features
+        count(len(part))
+    return status, strobes
 
 
 @compiled
-def fill_map(parameters, tolerance, harmonics, state, airborne, strobes, features):
-    """The compiled part of `follow_map`, which fills the arrays and returns the status.
-
-    airborne : time since the last separation, s
+def fill_map(parameters, tolerance, harmonics, state, strobes):
+    """The compiled part of `follow_map`, which fills the array and returns the status.
 
     Numba runs Python code where a compiled function returns an array. Ctrl-C would be raised there, as a SystemError.
     """
     c = contact.compute_constants(parameters, tolerance, harmonics)
     series = contact.workspace()
-    no_tangent = np.empty((0, 2))
-    cycle_features = np.zeros(FEATURES)
-    cycle_features[AIRBORNE] = airborne
+    no_tangent, features = np.empty((0, 2)), np.zeros(FEATURES)
     cycles = len(strobes)
     mark = 0  # 0, 1, 3, 7, …: at last one is in the repeated part, a whole period before n (Brent 1980)
     for n in range(cycles):
-        status = advance(c, series, state, c.psi0, c.period, no_tangent, cycle_features)
+        status = advance(c, series, state, c.psi0, c.period, no_tangent, features)
         if status != OK:
             return status
         copy(strobes[n], state)
-        copy(features[n], cycle_features)
-        same = strobes[n, 0] == strobes[mark, 0] and strobes[n, 1] == strobes[mark, 1]
-        # The times since the last separation are part of what repeats itself.
-        if mark < n and same and features[n, AIRBORNE] == features[mark, AIRBORNE]:
+        if mark < n and strobes[n, 0] == strobes[mark, 0] and strobes[n, 1] == strobes[mark, 1]:
             for later in range(n + 1, cycles):
                 copy(strobes[later], strobes[later - n + mark])
-                copy(features[later], features[later - n + mark])
             copy(state, strobes[cycles - 1])
             return OK
         if n == 2 * mark + 1:

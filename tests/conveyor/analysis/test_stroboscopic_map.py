@@ -19,7 +19,8 @@ def strobes_of(conveyor, start, tolerance=1e-12):
     """δ (m) and v (m/s) after each cycle, and the features of the cycles."""
     parameters = pack(conveyor, start)
     (state,) = stroboscopic_map.initial_states(parameters[None], tolerance)
-    code, strobes, features = stroboscopic_map.follow_map(parameters, tolerance, state, CYCLES)
+    _, _, features = stroboscopic_map.monodromy(parameters, tolerance, state.copy(), CYCLES, 0.0)
+    code, strobes = stroboscopic_map.follow_map(parameters, tolerance, state, CYCLES)
     assert code == OK
     return strobes, features
 
@@ -63,7 +64,7 @@ def test_linearised_map_is_the_derivative_of_the_map(tension, exponent):
 
     def advanced(q, y):
         """(δ, Y) one cycle after a state in the air with (δ, Y) = (q, y)."""
-        _, strobes, _ = stroboscopic_map.follow_map(parameters, 1e-13, np.array([q, y]), 1)
+        _, strobes = stroboscopic_map.follow_map(parameters, 1e-13, np.array([q, y]), 1)
         delta, v = strobes[0]
         clipped = conveyor.tension == "clip" and delta > 0.0
         assert not clipped or contact_law.force(c, math.sqrt(delta), v) > 0.0
@@ -85,13 +86,12 @@ def test_what_repeats_itself_is_copied_bit_for_bit(acceleration, z0):
     parameters, tolerance, cycles = pack(Conveyor(acceleration=acceleration), Start(z0)), 1e-10, 500
     (state,), found = stroboscopic_map.initial_states(parameters[None], tolerance), np.zeros(stroboscopic_map.FEATURES)
     end = state.copy()
-    status, strobes, features = stroboscopic_map.follow_map(parameters, tolerance, end, cycles)
+    status, strobes = stroboscopic_map.follow_map(parameters, tolerance, end, cycles)
     assert status == OK
     c, series = contact.constants(parameters, tolerance), contact.workspace()
     for n in range(cycles):
         stroboscopic_map.advance(c, series, state, c.psi0, c.period, np.empty((0, 2)), found)
         np.testing.assert_array_equal(strobes[n], state)
-        np.testing.assert_array_equal(features[n], found)
     np.testing.assert_array_equal(end, state)
 
 

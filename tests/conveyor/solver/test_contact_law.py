@@ -88,8 +88,8 @@ def test_conveyors_with_equal_groups_have_the_same_motion(exponent):
     for seed in range(10):
         row, units = random_conveyor(seed, exponent)
         alike, state = dimensionless_groups.packed(dimensionless_groups.groups_of(row)), np.array([-0.5, 0.1])
-        _, strobes, _ = stroboscopic_map.follow_map(row, 1e-12, state * units, 1)
-        _, scaled, _ = stroboscopic_map.follow_map(alike, 1e-12, state.copy(), 1)
+        _, strobes = stroboscopic_map.follow_map(row, 1e-12, state * units, 1)
+        _, scaled = stroboscopic_map.follow_map(alike, 1e-12, state.copy(), 1)
         assert strobes / units == pytest.approx(scaled, rel=1e-7, abs=1e-9)
 
 

@@ -73,13 +73,13 @@ def orbit_attractor(row: np.ndarray, label: str, period: int, state: np.ndarray)
     row = stroboscopic_map.begin_at_top(row)
     orbit = orbit_near(row, state, period)
     if orbit is not None and orbit.stable:
-        _, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, np.array(state), period)
+        _, strobes = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, np.array(state), period)
         remaining = 2.0 * distance(row, strobes[-1], np.array(state)) / (1.0 - abs(orbit.multipliers[0]))
         orbit = orbit if distance(row, orbit.state, state) < max(CLOSE, remaining) else None
     else:
         orbit = None
     start = np.array(state if orbit is None else orbit.state)
-    _, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, start.copy(), period)
+    _, strobes = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, start.copy(), period)
     return Attractor(label, period, orbit, np.vstack([start, strobes[:-1]]))
 
 

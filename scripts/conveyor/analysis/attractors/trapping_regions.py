@@ -235,7 +235,7 @@ def add_without_region(
             continue
         centre = refined[0]
         state = stroboscopic_map.state_of(c, centre)
-        status, strobes, _ = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
+        status, strobes = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
         reached = [convergence.find_reached_orbit(c, strobe, orbits, 0, count) >= 0 for strobe in strobes]
         if status == OK and not any(reached) and distance(conveyor, state, known) >= SMALLEST:
             known = np.concatenate([known, strobes])
@@ -273,7 +273,7 @@ def find_attracting_orbits(
             return
         region = None
         if cycles_left > 0 and period <= LONGEST:
-            status, strobes, _ = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
+            status, strobes = stroboscopic_map.follow_map(at_top, tolerance, state.copy(), period)
             if status != OK:
                 return
             seen = np.concatenate([seen, strobes])

@@ -66,7 +66,7 @@ def bifurcation_diagram(
             for k in range(begin, end):
                 (state,) = stroboscopic_map.initial_states(lines[k, :1], tolerance)
                 for i, row in enumerate(lines[k]):
-                    codes[k, i], visited, _ = stroboscopic_map.follow_map(
+                    codes[k, i], visited = stroboscopic_map.follow_map(
                         row, tolerance, state, transient + strobes, count
                     )
                     states[k, i] = visited[transient:]

@@ -110,7 +110,7 @@ class ReturnMap:
     def strobes(self, unknown: np.ndarray) -> np.ndarray:
         """Unknowns after 1 … n cycles, shape (n, 3)."""
         row, value = self.row(unknown[2]), unknown[2] * self.unit[2]
-        _, states, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, self.state(unknown), self.period)
+        _, states = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, self.state(unknown), self.period)
         known = self.constants(value / self.unit[2])  # once for all states, as in `scaled` for one
         return np.array([(*stroboscopic_map.smooth_state(known, state), value) for state in states]) / self.unit
 
@@ -208,7 +208,7 @@ def settled_orbit(row: np.ndarray, state: np.ndarray, periods: Iterable[int], cy
     cycles : excitation cycles that bring the trajectory near its orbit; Newton's iteration does the rest
     """
     row, end = as_rows(row), np.array(state, dtype=np.float64)
-    status, strobes, _ = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, end, cycles)
+    status, strobes = stroboscopic_map.follow_map(row, ORBIT_TOLERANCE, end, cycles)
     if status != OK:
         return None
     for period in periods:

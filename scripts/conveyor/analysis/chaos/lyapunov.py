@@ -214,7 +214,7 @@ def repeating_motion(
     contact_time : time with contact force in a period, s
     """
     nothing = 0, (math.nan, math.nan), math.nan
-    status, strobes, _ = stroboscopic_map.follow_map(parameters, tolerance, state, REPEATS_WITHIN)
+    status, strobes = stroboscopic_map.follow_map(parameters, tolerance, state, REPEATS_WITHIN)
     period = find_period(strobes, np.array(length_and_speed_units(parameters))) if status == OK else 0
     if not period:
         return nothing

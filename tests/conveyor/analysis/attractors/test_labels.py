@@ -200,7 +200,7 @@ def test_longest_flight_covers_the_end_of_the_search():
     """A part that falls from a large height onto a weakly damped contact bounces higher at first than at the end."""
     parameters = pack(Conveyor(acceleration=5.0, damping=0.05, psi0=np.pi), Start(z=0.05))
     (state,), count = stroboscopic_map.initial_states(parameters[None], 1e-8), 200
-    _, _, features = stroboscopic_map.follow_map(parameters, 1e-8, state.copy(), count)
+    _, _, features = stroboscopic_map.monodromy(parameters, 1e-8, state.copy(), count, 0.0)
     flights = features[:, [stroboscopic_map.LONGEST_FLIGHT, stroboscopic_map.AIRBORNE]].max(axis=1)
     found = sampling.follow(parameters[None], state[None], count, 1e-8)
     assert found.outcomes[0] == convergence.NOT_CONVERGED
