@@ -107,7 +107,7 @@ def continue_orbit(orbit: Orbit, parameter: str, limits: Sequence[float], *, pro
     >>> [one.kind for one in continue_orbit(orbit, "damping", (0.15, 0.32)).bifurcations]
     ['period_doubling']
     """
-    check_orbit("orbit", orbit)
+    check_orbit(orbit)
     check_choice("parameter", parameter, CONTINUED)
     low, high = check_limits(limits, parameter, orbit.value(parameter))
     branch = follow_branch(orbit, parameter, (low, high), progress=progress)

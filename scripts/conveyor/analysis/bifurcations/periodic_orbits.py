@@ -219,21 +219,20 @@ def settled_orbit(row: np.ndarray, state: np.ndarray, periods: Iterable[int], cy
     return None
 
 
-def check_orbit(name: str, orbit: object) -> Orbit:
-    """`orbit`; TypeError or ValueError, with the `name` of the argument, unless it is an Orbit of its conveyor."""
-    check_type(name, orbit, Orbit)
-    check_row(f"{name}.parameters", orbit.parameters)
-    check_count(f"{name}.period", orbit.period, 1, LONGEST_PERIOD)
-    check_count(f"{name}.impacts", orbit.impacts, 0, LONGEST_PERIOD * MOST_CYCLES)
+def check_orbit(orbit: object) -> None:
+    """TypeError or ValueError unless the argument `orbit` is an Orbit of its conveyor."""
+    check_type("orbit", orbit, Orbit)
+    check_row("orbit.parameters", orbit.parameters)
+    check_count("orbit.period", orbit.period, 1, LONGEST_PERIOD)
+    check_count("orbit.impacts", orbit.impacts, 0, LONGEST_PERIOD * MOST_CYCLES)
     if np.shape(orbit.multipliers) != (2,) or np.asarray(orbit.multipliers).dtype.kind not in "iufc":
-        raise ValueError(f"{name}.multipliers must be two numbers, got {orbit.multipliers!r}")
-    check_states(f"{name}.state", orbit.state, (2,))
+        raise ValueError(f"orbit.multipliers must be two numbers, got {orbit.multipliers!r}")
+    check_states("orbit.state", orbit.state, (2,))
     returns = ReturnMap(orbit.parameters, orbit.period)
     given = returns.unknown(orbit)
     solved = returns.newton(given)
     if solved is None or not linear_algebra.length(solved - given) < SAME_ORBIT:
-        raise ValueError(f"{name} is no orbit of its conveyor; find one with periodic_orbit")
-    return orbit
+        raise ValueError("orbit is no orbit of its conveyor; find one with periodic_orbit")
 
 
 def least_period(orbit: Orbit) -> int:

@@ -4,7 +4,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -33,12 +32,11 @@ def ends_of(amplitudes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([amplitudes[:1], between]), np.concatenate([between, amplitudes[-1:]])
 
 
-def throw_axis(axes: Axes, shares: pd.DataFrame) -> Axis:
+def throw_axis(axes: Axes, shares: pd.DataFrame) -> None:
     """Add an axis for the throw number above the panel."""
     unit = shares.acceleration.iloc[-1] / shares.vertical.iloc[-1]
     above = axes.secondary_xaxis("top", functions=(lambda x: x / unit, lambda x: x * unit))
     above.set_xlabel(style.THROW_NUMBER)
-    return above
 
 
 def draw_motions(axes: Axes, shares: pd.DataFrame, over: str) -> None:
