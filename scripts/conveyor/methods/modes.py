@@ -13,6 +13,7 @@ from .force_law import contact_acceleration, friction_acceleration, least_push, 
 
 # The modes; SIGN is the motion without modes, in which signs switch the forces.
 SIGN, FLIGHT, FORWARD, BACKWARD, STICK = range(5)
+BESIDE = 1e-15  # in units of `scales`, some rounding errors beside zero, where a mode begins
 
 
 @compiled_inline
@@ -149,13 +150,14 @@ def scales(parameters: np.ndarray) -> np.ndarray:
     return np.array([c.a_x / c.omega**2, c.a_x / c.omega, c.a_z / c.omega**2, c.a_z / c.omega])
 
 
-def put_beside(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callable, mode: int, beside: float) -> None:
+def put_beside(parameters: np.ndarray, t: float, state: np.ndarray, ended: Callable, mode: int) -> None:
     """Change `state` after the event `ended` to be just on the side of the zero that belongs to the next `mode`.
 
-    beside : distance from the zero, in units of `scales`
+    At the zero or on its wrong side the integrator finds the same event again, or never again, and the part falls
+    through.
     """
     z, _, vx, _ = plate_motion(parameters, t)
-    _, beside_vx, beside_z, _ = beside * scales(parameters)
+    _, beside_vx, beside_z, _ = BESIDE * scales(parameters)
     if ended is gap_of:
         state[2] = z + (beside_z if mode == FLIGHT else -beside_z)
     elif mode == FORWARD:

@@ -68,7 +68,7 @@ def test_a_mode_begins_on_its_own_side_of_the_event(mode):
     for ended in (modes.gap_of, modes.slip_of):
         z, _, vx, _ = modes.plate_motion(parameters, t)
         state = np.array([0.0, vx, z, 0.0])
-        modes.put_beside(parameters, t, state, ended, mode, scipy_integrators.BESIDE)
+        modes.put_beside(parameters, t, state, ended, mode)
         if ended is modes.gap_of:
             assert np.sign(modes.gap_of(t, state, parameters)) == (1.0 if mode == modes.FLIGHT else -1.0)
             assert state[1] == vx

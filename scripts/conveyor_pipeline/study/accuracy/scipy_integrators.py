@@ -26,10 +26,6 @@ TREATMENTS = ("sign", "events", "modes")
 # How a run ended.
 OK, NOT_FINITE = "ok", "not finite"
 GAVE_UP, STUCK, STEP_TOO_SMALL, EVENT_LOST = "gave up", "stuck at an event", "step too small", "event lost"
-
-# Where "modes" puts the variable of an event, in units of the plate's motion: a few rounding errors beside zero. At
-# zero or on the wrong side the integrator finds the same event again, or never again, and the part falls through.
-BESIDE = 1e-15
 # m and m/s, the scale of absolute tolerances on a plate at rest, so that none is zero.
 SMALLEST_SCALE = 1e-6
 
@@ -139,7 +135,7 @@ def advance(trajectory: Trajectory, begin: float, end: float, state: np.ndarray,
                 trajectory.events.append(t)
             trajectory.mode = modes.next_mode(parameters, t, state, ended, trajectory.mode)
             if treatment == "modes":
-                modes.put_beside(parameters, t, state, ended, trajectory.mode, BESIDE)
+                modes.put_beside(parameters, t, state, ended, trajectory.mode)
         situation = trajectory.mode, state.tobytes()
         if situation in met:  # The run would not end.
             raise Failed(STUCK, 0)
