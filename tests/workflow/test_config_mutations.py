@@ -2,12 +2,12 @@
 
 import copy
 import math
-from collections.abc import Iterator
 
 import pytest
 from project import merged, permuted, read_config
 
 from conveyor_pipeline.config import canonical, problems
+from conveyor_pipeline.config.files import walk
 
 CONFIG = read_config()
 # Values that are invalid wherever another value of the same type is valid.
@@ -18,14 +18,6 @@ WRONG = {
     list: [None, "abc", {}, 3, [None], [[1, 2], [3]], {"a": 1}],
     dict: [None, "abc", [], 3, True],
 }
-
-
-def below(value, path: tuple = ()) -> Iterator[tuple[tuple, object]]:
-    """All (path, value) pairs below a value."""
-    pairs = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    for part, item in pairs:
-        yield (*path, part), item
-        yield from below(item, (*path, part))
 
 
 def is_of_names(path: tuple) -> bool:
@@ -42,7 +34,7 @@ def declaration(path: tuple, value) -> tuple:
 
 
 # One place of each declaration, because all places that share it are checked by the same code.
-PLACES = list({declaration(path, value): (path, value) for path, value in below(CONFIG)}.values())
+PLACES = list({declaration(path, value): (path, value) for path, value in walk(CONFIG)}.values())
 SECTIONS = list(CONFIG)
 
 
