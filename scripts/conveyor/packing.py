@@ -66,7 +66,7 @@ def parameter_table(conveyor: Conveyor, start: Start = AT_REST, **values: ArrayL
     table = np.full(shape, as_table(pack(conveyor, start)))
     if conveyor.static_friction is not None:
         arrays = {"static_friction": conveyor.static_friction} | arrays
-    return fill_columns(table, arrays)
+    return replace_parameters(table, **arrays)
 
 
 def replace_parameters(parameters: Conveyor | np.ndarray, **values: ArrayLike) -> np.ndarray:
@@ -81,11 +81,7 @@ def replace_parameters(parameters: Conveyor | np.ndarray, **values: ArrayLike) -
     >>> table["static_friction"].tolist()
     [0.2, 0.2]
     """
-    return fill_columns(copy_table(parameters), values)
-
-
-def fill_columns(table: np.ndarray, values: dict[str, ArrayLike]) -> np.ndarray:
-    """The same table, with new `values` of some parameters; see `replace_parameters`."""
+    table = copy_table(parameters)
     for name, column in values.items():
         if name == "tension":
             code = np.vectorize(

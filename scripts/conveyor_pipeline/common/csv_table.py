@@ -29,7 +29,7 @@ CLOCK = re.compile(
 UNIT = re.compile(r"\s*/?\s*[(\[<{]([^()\[\]<>{}]*)[)\]>}]$")
 RATIO = re.compile(r"([^/\s]+)\s*/\s*(\S+)")
 RESTART = 10.0  # intervals by which a time goes back where another run begins
-RUNS = "another run, or an overflow of the clock, begins there; keep the lines of one run"
+ANOTHER_RUN = "another run, or an overflow of the clock, begins there; keep the lines of one run"
 HOUR, DAY = 3600.0, 86_400.0  # s
 EXCEL_LINE = re.compile(r'"?sep=."?')
 
@@ -82,9 +82,10 @@ class Table(NamedTuple):
         remedy = remedy_of_order(time)
         if remedy:  # once, because all lines have the same cause
             back = back[:1]
-        rate = "state excitation.rate (Hz)"
-        others = {"": f"sort the lines, or {rate} in place of the times", RUNS: f"{RUNS}, or {rate} if it overflows"}
-        remedy = others.get(remedy, remedy)
+        if not remedy:
+            remedy = "sort the lines, or state excitation.rate (Hz) in place of the times"
+        elif remedy == ANOTHER_RUN:
+            remedy += ", or state excitation.rate (Hz) if it overflows"
         for row in back:
             faults.append((int(self.lines[row]), f"time = {texts[row]} is earlier than the line before; {remedy}"))
         return time, faults
@@ -101,7 +102,7 @@ def remedy_of_order(time: Any) -> str:
     apart = RESTART * float(np.median(np.abs(steps))) if len(steps) else 0.0
     begins = time[back + 1] <= np.minimum.accumulate(time)[back] + apart
     if len(back) and begins.all() and 0.0 < apart < -steps[back].max():
-        return RUNS
+        return ANOTHER_RUN
     return ""
 
 

@@ -8,7 +8,7 @@ It has the facts of `collect_facts`, and these:
     tighter           factor between the usual tolerances and the tighter ones that give the uncertainty of the claims
     figures           titles and sections of all figures, by name
     statements        the claims as described by claims.verdicts, by name
-    costs             of the jobs of the build by kind, and of `everything`, as builds.provenance describes
+    costs             of the jobs of the build by kind, and of `everything`, as common.provenance describes
 """
 
 import json

@@ -73,7 +73,7 @@ def find_reached_orbit(c, state, orbits, first, behind):
 
 @compiled
 def find_reached_set(state, chaotic, first, behind):
-    """The chaotic set, from number `first` to that before `behind`, in a box of which a state lies, or -1."""
+    """The chaotic set, from number `first` to the number before `behind`, with a box that contains a state, or -1."""
     for k in range(first, behind):
         i = (state[0] - chaotic.low[k, 0]) / chaotic.size[k, 0]
         j = (state[1] - chaotic.low[k, 1]) / chaotic.size[k, 1]
@@ -85,16 +85,18 @@ def find_reached_set(state, chaotic, first, behind):
 
 @compiled
 def find_reached(c, states, periods, is_chaos, attractors, numbers):
-    """Fill the number of the known orbit, or behind all orbits of the chaotic set, in which each state lies; else -1.
+    """Fill the number of the known orbit or chaotic set that each trajectory has reached, or -1.
 
-    states : at the end of trajectories with these periods (0 for none) or in chaos
+    The numbers of chaotic sets follow those of the orbits.
+
+    states, periods, is_chaos : last state, period (0 for none) and label of each trajectory
     """
     orbits = len(attractors.orbits.periods)
     for i in range(len(states)):
         numbers[i] = -1
         if is_chaos[i]:
-            chaotic = find_reached_set(states[i], attractors.chaotic, 0, len(attractors.chaotic.low))
-            numbers[i] = orbits + chaotic if chaotic >= 0 else -1
+            k = find_reached_set(states[i], attractors.chaotic, 0, len(attractors.chaotic.low))
+            numbers[i] = orbits + k if k >= 0 else -1
         elif periods[i] > 0:
             numbers[i] = find_reached_orbit(c, states[i], attractors.orbits, 0, orbits)
 

@@ -38,8 +38,8 @@ LONG_FLIGHT = 0.5
 CYCLES = 20_000
 # Trajectories that a thread takes at a time. The last ones leave lanes idle, so that many are better.
 TOGETHER = 8192
-# Rows of a group. Side by side, alike motions of neighbours take about three quarters of the time of a mixture. With
-# 64, the progress bar of a few hundred trajectories is uneven.
+# Rows of a group. Neighbours have similar motions, which take about three quarters of the time of different motions
+# side by side. With groups of 64, the progress bar of a few hundred trajectories is uneven.
 NEIGHBOURS = 16
 
 

@@ -79,7 +79,7 @@ CHANCE_OF_FLAT = 0.01  # that the flattest wave looks cut off
 LINES, STRAIGHT, PIECES = 0.1, 3.0, 8
 VARIED = 33  # different phases, of 64
 COARSE = 20.0  # steps of the readings; with more noise, chance puts few samples on a line at any number of phases
-# Different values that show a wave, and the noise, in steps of the converter, that makes the steps finer.
+# Fewest different values that show a wave; the noise, in steps of the converter, with which fewer values show it, too.
 LEAST_VALUES, FINER = 6, 0.25
 # Readings that a slower channel holds: least share in each piece, and its product with the median of the other changes
 # in steps, which is about 0.3 for a wave and for noise, at any size of the steps.
@@ -248,7 +248,7 @@ def time_faults(recording: Recording) -> Iterator[Fault]:
 
 
 def step_faults(signal: Signal) -> Iterator[Fault]:
-    """Steps of the converter in which no wave can be seen, unless noise makes them finer."""
+    """A column with too few different values to show a wave, and without noise that would make up for it."""
     recording = signal.recording
     for key, readings, quantum in zip(recording.columns, recording.readings, recording.quanta, strict=True):
         noise = max(float((signal.fitted.residual**2).mean()) - quantum**2 / 12.0, 0.0)

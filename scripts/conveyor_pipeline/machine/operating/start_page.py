@@ -48,9 +48,7 @@ def ways_at(aim: str, start: pd.DataFrame, motions: pd.DataFrame) -> list[dict]:
     rows = motions[motions.aim == aim].assign(way=lambda table: table.parts.map(WAYS))
     falling = start[(start.aim == SLOWLY) & (start.way == DOWN)]
     nearest = falling.iloc[[(falling.acceleration - rows.acceleration.iloc[0]).abs().argmin()]]
-    nearest = nearest.assign(way=WAYS[DOWN], repeating=np.nan)
-    columns = ["way", "velocity_05", "velocity_50", "velocity_50_stderr", "jumping", "repeating", "failed"]
-    ways = pd.concat([rows, nearest[columns]])
+    ways = pd.concat([rows, nearest.assign(way=WAYS[DOWN])])
     return ways.replace({np.nan: None}).to_dict("records")
 
 
