@@ -21,7 +21,10 @@ import pytest
 import conveyor
 from conveyor import Conveyor, Start, columns, parameter_table, replace_parameters, restart, simulation
 from conveyor.analysis.attractors import search
+from conveyor.analysis.attractors.attractor_table import NO_ATTRACTORS
 from conveyor.analysis.chaos import lyapunov
+from conveyor.interface import with_unknown
+from conveyor.packing import as_rows
 from conveyor.parameters import DEFAULT_TOLERANCE, PARAMETERS, RANGES
 from conveyor_pipeline.common import fields
 
@@ -681,6 +684,16 @@ def test_an_attractor_has_a_mean_velocity_if_it_settles(values, known):
     """With little friction, parts still accelerate after 2048 cycles; on a steep track they slide away."""
     found = conveyor.attractors(Conveyor(**{"acceleration": 40.0, "friction": 0.15} | values), samples=32).found
     assert [(one.state, np.isfinite(one.mean_velocity)) for one in found] == [("second", known), ("first", known)]
+
+
+def test_motions_without_a_known_chaotic_set_are_one_attractor():
+    heights = parameter_table(Conveyor(acceleration=80.0), z0=[1e-4, 2e-4, 3e-4])
+    (row,) = as_rows(parameter_table(Conveyor(acceleration=80.0), z0=[0.0]))
+    nothing = conveyor.Attractors([], row, NO_ATTRACTORS)
+    labels = conveyor.classify(heights, cycles=100, attractors=nothing)
+    assert labels.attractor.tolist() == [-1, -1, -1]
+    known, numbers = with_unknown(nothing, labels)
+    assert [attractor.state for attractor in known.found] == ["chaos"] and numbers.tolist() == [0, 0, 0]
 
 
 def test_a_basin_names_attractors_beyond_the_samples():
